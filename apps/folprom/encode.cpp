@@ -1,0 +1,139 @@
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "apps/folprom/config.h"
+#include "apps/folprom/options.h"
+#include "apps/folprom/report.h"
+#include "apps/folprom/session.h"
+#include "apps/folprom/verbs.h"
+#include "folprom/folprom.h"
+
+namespace folprom::cli {
+namespace {
+
+constexpr const char* kDescription =
+    "Encode a mesh as one progressive, lossless file\n"
+    "\n"
+    "  folprom encode scan.ply -o scan.folp\n"
+    "  folprom encode scan.ply -o scan.folp --bits 16 -T 8 -M 4GiB\n"
+    "  folprom encode scan.ply -o scan.folp --config configs/paper.toml\n"
+    "  folprom encode --print-config > my.toml";
+
+struct EncodeFlags {
+  CommonFlags common;
+  WorkFlags work;
+  std::string input;
+  std::string output;
+  std::string config;
+  std::optional<uint32_t> bits;
+  std::optional<double> tolerance;
+  std::optional<uint64_t> subtree_vertices;
+  bool print_config = false;
+  bool force = false;
+};
+
+// Defaults, then the config file, then the flags.
+EncodeConfig Settings(const EncodeFlags& flags) {
+  EncodeConfig config;
+  if (!flags.config.empty()) ReadConfig(flags.config, &config).value();
+  EncodeOptions& options = config.options;
+  if (flags.bits) {
+    options.bits = *flags.bits;
+    options.tolerance = 0;
+  }
+  if (flags.tolerance) options.tolerance = *flags.tolerance;
+  if (flags.subtree_vertices) {
+    // What does not fit is out of range in any case.
+    options.codec.subtree_vertices =
+        static_cast<uint32_t>(std::min<uint64_t>(*flags.subtree_vertices, UINT32_MAX));
+  }
+  if (flags.work.threads) config.threads = *flags.work.threads;
+  if (flags.work.memory) options.memory_bytes = *flags.work.memory;
+  if (flags.work.temporary_folder) options.temporary_folder = *flags.work.temporary_folder;
+  options.overwrite = flags.force;
+  CheckConfig(config).value();
+  return config;
+}
+
+void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double seconds) {
+  const double bits_per_vertex =
+      report.vertices == 0
+          ? 0
+          : 8 * static_cast<double>(report.bytes) / static_cast<double>(report.vertices);
+  if (flags.common.json) {
+    PrintJson({{"output", flags.output},
+               {"vertices", report.vertices},
+               {"faces", report.faces},
+               {"bytes", report.bytes},
+               {"bits_per_vertex", bits_per_vertex},
+               {"seconds", seconds},
+               {"peak_rss_bytes", PeakResidentBytes()},
+               {"subtrees", report.subtrees},
+               {"layers", report.layers},
+               {"spill_bytes", report.spill_bytes},
+               {"warnings", report.warnings}});
+  } else if (!flags.common.quiet) {
+    Print(fmt::format("{}: {} vertices, {} faces in {} bytes, {:.2f} bits per vertex\n"
+                      "{} layers, {} subtrees; {:.1f} s, {} memory, {} temporary disk\n",
+                      flags.output, Grouped(report.vertices), Grouped(report.faces),
+                      Grouped(report.bytes), bits_per_vertex, Grouped(report.layers),
+                      Grouped(report.subtrees), seconds, BytesShort(PeakResidentBytes()),
+                      BytesShort(report.spill_bytes)));
+  }
+}
+
+int Run(const EncodeFlags& flags) {
+  const EncodeConfig config = Settings(flags);
+  if (flags.print_config) {
+    Print(ConfigText(config));
+    return 0;
+  }
+  if (flags.input.empty()) throw Failure(ErrorKind::kUsage, "encode needs SCAN, the mesh to read");
+  if (flags.output.empty()) {
+    throw Failure(ErrorKind::kUsage, "encode needs -o, the file to write");
+  }
+  CheckOutput(flags.input, flags.output, flags.force);
+  const auto runner = MakeRunner(flags.work, config.threads);
+  Session session(flags.common);
+  spdlog::debug("{} threads, {} memory", runner->threads(),
+                BytesShort(config.options.memory_bytes));
+  const EncodeReport report =
+      EncodeFile(flags.input, flags.output, config.options, *runner, session.progress()).value();
+  session.StopDisplay();
+  LogWarnings(report.warnings);
+  PrintReport(flags, report, session.seconds());
+  return 0;
+}
+
+}  // namespace
+
+Verb AddEncode(CLI::App& program) {
+  auto flags = std::make_shared<EncodeFlags>();
+  CLI::App* verb = program.add_subcommand("encode", kDescription);
+  verb->add_option("SCAN", flags->input, "Mesh to read (PLY)")->type_name("");
+  verb->add_option("-o,--output", flags->output, "File to write")->type_name("F.folp");
+  verb->add_flag("-f,--force", flags->force, "May replace the output");
+  verb->add_option("--config", flags->config, "Settings to start from; flags win")
+      ->type_name("C.toml");
+  CLI::Option* bits =
+      verb->add_option("--bits", flags->bits, "Lattice of 2^N - 1 steps along the longest side; 1 .. 24")
+          ->check(CLI::Range(1, 24))
+          ->type_name("N");
+  AddPositiveOption(verb, "--tolerance", &flags->tolerance, "LENGTH",
+                    "Largest error per axis, in model units")
+      ->excludes(bits);
+  AddCountOption(verb, "--subtree-vertices", &flags->subtree_vertices, "Largest subtree in vertices, 20k");
+  verb->add_flag("--print-config", flags->print_config,
+                 "Print the settings in force as a config file, and stop");
+  AddWorkFlags(verb, &flags->work);
+  AddCommonFlags(verb, &flags->common);
+  AddRunnerFlag(verb, &flags->work);
+  return {verb, [flags] { return Run(*flags); }};
+}
+
+}  // namespace folprom::cli

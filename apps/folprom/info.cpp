@@ -1,0 +1,146 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <CLI/CLI.hpp>
+#include <iterator>
+#include <memory>
+#include <type_traits>
+#include <variant>
+
+#include "apps/folprom/options.h"
+#include "apps/folprom/report.h"
+#include "apps/folprom/session.h"
+#include "apps/folprom/verbs.h"
+#include "folprom/folprom.h"
+#include "folprom/settings_keys.h"
+
+namespace folprom::cli {
+namespace {
+
+constexpr const char* kDescription =
+    "Show what a file holds and its levels of detail\n"
+    "\n"
+    "  folprom info scan.folp\n"
+    "  folprom info scan.folp --json";
+
+struct InfoFlags {
+  CommonFlags common;
+  std::string input;
+};
+
+double BitsPerVertex(const FileInfo& info) {
+  return info.vertices == 0
+             ? 0
+             : 8 * static_cast<double>(info.bytes) / static_cast<double>(info.vertices);
+}
+
+struct Kind {
+  const char* name;
+  double FileInfo::*bits_per_vertex;
+};
+constexpr Kind kKinds[] = {
+    {"split", &FileInfo::split},           {"offsets", &FileInfo::offsets},
+    {"refinement", &FileInfo::refinement}, {"connectivity", &FileInfo::connectivity},
+    {"exceptions", &FileInfo::exceptions}, {"seams", &FileInfo::seams}};
+
+Json CodecJson(const CodecSettings& settings) {
+  Json codec = Json::object();
+  for (const SettingKey& key : SettingKeys()) {
+    std::visit(
+        [&](auto member) {
+          const auto value = settings.*member;
+          if constexpr (std::is_enum_v<std::remove_cv_t<decltype(value)>>) {
+            codec[std::string(key.name)] = key.choices[static_cast<size_t>(value)];
+          } else {
+            codec[std::string(key.name)] = value;
+          }
+        },
+        key.member);
+  }
+  return codec;
+}
+
+Json InfoJson(const FileInfo& info) {
+  Json layers = Json::array();
+  for (const LayerInfo& layer : info.layers) {
+    layers.push_back({{"bytes", layer.bytes},
+                      {"end_byte", layer.end_byte},
+                      {"vertices", layer.vertices},
+                      {"faces", layer.faces},
+                      {"error_bound", layer.error_bound},
+                      {"bits_per_vertex", layer.bits_per_vertex}});
+  }
+  Json kinds = Json::object();
+  for (const Kind& kind : kKinds) kinds[kind.name] = info.*kind.bits_per_vertex;
+  return {{"format_version", info.format_version},
+          {"vertices", info.vertices},
+          {"faces", info.faces},
+          {"bytes", info.bytes},
+          {"bytes_present", info.bytes_present},
+          {"bits_per_vertex", BitsPerVertex(info)},
+          {"subtrees", info.subtrees},
+          {"tolerance", info.tolerance},
+          {"box_lo", info.box_lo},
+          {"box_hi", info.box_hi},
+          {"bits_per_vertex_by_kind", kinds},
+          {"table_bytes", info.table_bytes},
+          {"checksum_bytes", info.checksum_bytes},
+          {"flush_bytes", info.flush_bytes},
+          {"overhead", info.overhead},
+          {"codec", CodecJson(info.codec)},
+          {"layers_present", info.layers_present},
+          {"layers", layers}};
+}
+
+std::string InfoText(const std::string& path, const FileInfo& info) {
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{}: format {}, {} vertices, {} faces\n", path, info.format_version,
+                 Grouped(info.vertices), Grouped(info.faces));
+  fmt::format_to(out, "{} bytes, {:.2f} bits per vertex, {} subtrees, tolerance {:.6g}\n",
+                 Grouped(info.bytes), BitsPerVertex(info), Grouped(info.subtrees), info.tolerance);
+  if (info.bytes_present < info.bytes) {
+    fmt::format_to(out, "cut: {} bytes and {} of {} layers are here\n",
+                   Grouped(info.bytes_present), info.layers_present, info.layers.size());
+  }
+  fmt::format_to(out, "box {:.6g} {:.6g} {:.6g} .. {:.6g} {:.6g} {:.6g}\n", info.box_lo[0],
+                 info.box_lo[1], info.box_lo[2], info.box_hi[0], info.box_hi[1], info.box_hi[2]);
+  fmt::format_to(out, "bits per vertex:");
+  for (const Kind& kind : kKinds) {
+    fmt::format_to(out, " {} {:.3f}", kind.name, info.*kind.bits_per_vertex);
+  }
+  fmt::format_to(out, "; tables, checksums, flushes {:.2f} % of the file\n\n",
+                 100 * info.overhead);
+  fmt::format_to(out, "{:>5} {:>15} {:>15} {:>14} {:>14} {:>13} {:>8}\n", "layer", "bytes",
+                 "end byte", "vertices", "faces", "error bound", "bits/v");
+  size_t number = 0;
+  for (const LayerInfo& layer : info.layers) {
+    fmt::format_to(out, "{:>5} {:>15} {:>15} {:>14} {:>14} {:>13.6g} {:>8.3f}\n", ++number,
+                   Grouped(layer.bytes), Grouped(layer.end_byte), Grouped(layer.vertices),
+                   Grouped(layer.faces), layer.error_bound, layer.bits_per_vertex);
+  }
+  return text;
+}
+
+int Run(const InfoFlags& flags) {
+  Session session(flags.common);
+  const FileInfo info = ReadInfo(flags.input).value();
+  session.StopDisplay();
+  if (flags.common.json) {
+    PrintJson(InfoJson(info));
+  } else if (!flags.common.quiet) {
+    Print(InfoText(flags.input, info));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Verb AddInfo(CLI::App& program) {
+  auto flags = std::make_shared<InfoFlags>();
+  CLI::App* verb = program.add_subcommand("info", kDescription);
+  verb->add_option("F.folp", flags->input, "File to read")->type_name("")->required();
+  AddCommonFlags(verb, &flags->common);
+  return {verb, [flags] { return Run(*flags); }};
+}
+
+}  // namespace folprom::cli

@@ -1,0 +1,22 @@
+// What verbs print on standard output: one JSON object, or lines for a reader.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace folprom::cli {
+
+/// Keeps the keys in the order in which they were set.
+using Json = nlohmann::ordered_json;
+
+/// Writes to standard output; kOutput where it does not take all of it.
+void Print(const std::string& text);
+void PrintJson(const Json& object);
+
+/// "1,234,567"
+std::string Grouped(uint64_t number);
+/// "12.3 MiB"
+std::string BytesShort(uint64_t bytes);
+
+}  // namespace folprom::cli

@@ -1,0 +1,65 @@
+#include "apps/folprom/session.h"
+
+#include <signal.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <atomic>
+
+namespace folprom::cli {
+namespace {
+
+std::atomic<parallel::Progress*> active_progress{nullptr};
+static_assert(std::atomic<parallel::Progress*>::is_always_lock_free);
+
+void CancelActive(int) {
+  if (parallel::Progress* progress = active_progress.load()) progress->Cancel();
+}
+
+void SetUpLog(const CommonFlags& flags) {
+  const auto mode = ColourWanted() ? spdlog::color_mode::always : spdlog::color_mode::never;
+  auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(mode);
+  auto logger = std::make_shared<spdlog::logger>("folprom", std::move(sink));
+  logger->set_pattern("folprom: %^%l%$: %v");
+  logger->set_level(flags.verbose ? spdlog::level::debug : spdlog::level::warn);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void HandleSignals() {
+  struct sigaction action = {};
+  action.sa_handler = CancelActive;
+  // Once: whoever asks a second time means at once.
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+Session::Session(const CommonFlags& flags) {
+  SetUpLog(flags);
+  active_progress = &progress_;
+  HandleSignals();
+  if (!flags.quiet && !flags.json) {
+    display_ = std::make_unique<ProgressDisplay>(progress_, flags.verbose);
+  }
+}
+
+Session::~Session() { active_progress = nullptr; }
+
+double Session::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+uint64_t PeakResidentBytes() {
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void LogWarnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+}
+
+}  // namespace folprom::cli

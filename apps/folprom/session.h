@@ -1,0 +1,43 @@
+// What surrounds the work of every verb: clock, log, signals, progress.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/folprom/options.h"
+#include "apps/folprom/progress_display.h"
+#include "parallel/progress.h"
+
+namespace folprom::cli {
+
+/// Lives while a verb works. SIGINT and SIGTERM cancel its progress; a second one ends the program
+/// at once. One at a time.
+class Session {
+ public:
+  explicit Session(const CommonFlags& flags);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  parallel::Progress& progress() { return progress_; }
+  /// Ends the live line, so that a summary can be printed.
+  void StopDisplay() { display_.reset(); }
+  /// Seconds since the session began.
+  double seconds() const;
+
+ private:
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  parallel::Progress progress_;
+  std::unique_ptr<ProgressDisplay> display_;
+};
+
+/// Largest resident size of this process so far, bytes.
+uint64_t PeakResidentBytes();
+
+/// Sends warnings to the log, one line each.
+void LogWarnings(const std::vector<std::string>& warnings);
+
+}  // namespace folprom::cli

@@ -1,0 +1,60 @@
+#include "engine/codec/border_file.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "io/files/mapped_file.h"
+
+namespace folprom {
+namespace {
+
+template <class T>
+void Append(std::vector<uint8_t>* bytes, const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  uint64_t count = values.size();
+  const uint8_t* size = reinterpret_cast<const uint8_t*>(&count);
+  const uint8_t* data = reinterpret_cast<const uint8_t*>(values.data());
+  bytes->insert(bytes->end(), size, size + sizeof count);
+  bytes->insert(bytes->end(), data, data + values.size() * sizeof(T));
+}
+
+template <class T>
+void Take(const uint8_t** cursor, std::vector<T>* values) {
+  uint64_t count = 0;
+  std::memcpy(&count, *cursor, sizeof count);
+  *cursor += sizeof count;
+  values->resize(count);
+  if (count > 0) std::memcpy(values->data(), *cursor, count * sizeof(T));
+  *cursor += count * sizeof(T);
+}
+
+std::string NameOf(uint32_t subtree) { return "border." + std::to_string(subtree); }
+
+}  // namespace
+
+void SpillBorder(const io::SpillDirectory& spill, uint32_t subtree, const BorderRecord& record,
+                 const BorderVertices& vertices) {
+  std::vector<uint8_t> bytes;
+  Append(&bytes, record.events);
+  Append(&bytes, record.layer_end);
+  Append(&bytes, std::vector<Int3>{record.root_position});
+  Append(&bytes, vertices.original);
+  Append(&bytes, vertices.position);
+  io::WriteSpillFile(spill, NameOf(subtree), bytes);
+}
+
+BorderFile LoadBorder(const io::SpillDirectory& spill, uint32_t subtree) {
+  io::MappedFile file = io::MappedFile::Open(spill.File(NameOf(subtree))).value();
+  const uint8_t* cursor = file.bytes().data();
+  BorderFile border;
+  std::vector<Int3> root;
+  Take(&cursor, &border.record.events);
+  Take(&cursor, &border.record.layer_end);
+  Take(&cursor, &root);
+  Take(&cursor, &border.vertices.original);
+  Take(&cursor, &border.vertices.position);
+  border.record.root_position = root.at(0);
+  return border;
+}
+
+}  // namespace folprom

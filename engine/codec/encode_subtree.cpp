@@ -1,0 +1,118 @@
+#include "engine/codec/encode_subtree.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "engine/codec/border_seam_truth.h"
+#include "engine/codec/lloyd_truth.h"
+#include "engine/codec/seam_coder.h"
+#include "engine/entropy/bit_coder.h"
+#include "engine/hierarchy/lloyd_tree.h"
+#include "engine/hierarchy/surface.h"
+#include "engine/mesh/digest.h"
+#include "engine/mesh/lattice.h"
+
+namespace folprom {
+namespace {
+
+void CheckTolerance(const SubtreeChunk& chunk, const std::vector<Int3>& positions,
+                    const std::vector<uint32_t>& final_vertices) {
+  constexpr int32_t kMost = static_cast<int32_t>(kUnitsPerTolerance) - 1;
+  for (size_t i = 0; i < chunk.positions.size(); ++i) {
+    const Int3 &a = chunk.positions[i], &b = positions[final_vertices[i]];
+    int32_t error = std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+    if (error > kMost) {
+      throw Failure(ErrorKind::kInternal, "a refined position misses the tolerance");
+    }
+  }
+}
+
+}  // namespace
+
+uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary) {
+  // Per vertex: tree and points 220, complex and cells 420. Per face: oracle and chunk 110.
+  return (uint64_t{1} << 20) + uint64_t{summary.vertices} * 640 +
+         (summary.faces + summary.cross_faces) * 110;
+}
+
+EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& summary,
+                             uint32_t subtree, const CodecParameters& parameters) {
+  const Int3& extent = parameters.extent;
+  double longest = std::max({extent.x, extent.y, extent.z});
+  SetTree tree;
+  {
+    SurfaceAttributes surface =
+        MeasureSurface(chunk.positions, chunk.faces, chunk.cross_faces, subtree);
+    tree = BuildLloydTree(chunk.positions, surface, longest, parameters.settings);
+  }
+  LloydTruth truth(chunk, subtree, tree);
+  SubtreeShape shape{summary.vertices, summary.box_lo, summary.box_hi, !summary.neighbours.empty()};
+  SubtreeCoder coder(parameters, shape);
+  BitEncoder bits;
+  EncodedSubtree result;
+  for (uint32_t layer = 0; layer < parameters.schedule.layers(); ++layer) {
+    uint64_t before = bits.decisions();
+    coder.CodeLayer(bits, &truth, &result.meters);
+    result.active.push_back(bits.decisions() > before);
+    result.segments.push_back(bits.TakeSegment());
+    result.distance.push_back(truth.LargestDistance(coder.positions()));
+    result.vertices.push_back(static_cast<uint32_t>(coder.positions().size()));
+    result.faces.push_back(coder.face_count());
+  }
+  result.final_vertices = truth.FinalVertices();
+  CheckTolerance(chunk, coder.positions(), result.final_vertices);
+
+  const std::vector<Int3>& positions = coder.positions();
+  for (const Int3& position : positions) AddVertex(&result.digest, position);
+  std::vector<Face> faces;
+  coder.AppendFaces(&faces);
+  for (const Face& f : faces) AddFace(&result.digest, positions[f[0]], positions[f[1]], positions[f[2]]);
+
+  result.border = coder.border();
+  for (uint32_t v = 0; v < result.final_vertices.size(); ++v) {
+    uint32_t border = coder.BorderOf(result.final_vertices[v]);
+    if (border == kNone) continue;
+    auto& known = result.border_vertices;
+    if (border >= known.original.size()) {
+      known.original.resize(border + size_t{1});
+      known.position.resize(border + size_t{1});
+    }
+    known.original[border] = v;
+    known.position[border] = positions[result.final_vertices[v]];
+  }
+  return result;
+}
+
+EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees, const std::vector<BorderFile>& borders,
+                       std::span<const CrossFace> cross_faces, const CodecParameters& parameters) {
+  std::vector<SeamMember> members;
+  std::vector<SeamCoder::Participant> participants;
+  for (size_t i = 0; i < subtrees.size(); ++i) {
+    members.push_back({subtrees[i], &borders[i].record, borders[i].vertices.original});
+    participants.push_back({subtrees[i], &borders[i].record});
+  }
+  BorderSeamTruth truth(members, cross_faces);
+  SeamCoder coder(parameters, participants);
+  BitEncoder bits;
+  EncodedSeam result;
+  for (uint32_t layer = 0; layer < parameters.schedule.layers(); ++layer) {
+    uint64_t before = bits.decisions();
+    coder.CodeLayer(bits, &truth, &result.meter);
+    result.active.push_back(bits.decisions() > before);
+    result.segments.push_back(bits.TakeSegment());
+    result.faces.push_back(coder.face_count());
+  }
+  std::vector<SeamFace> faces;
+  coder.AppendFaces(&faces);
+  auto position = [&](const BorderRef& ref) {
+    size_t i = 0;
+    while (subtrees[i] != ref.subtree) ++i;
+    return borders[i].vertices.position[ref.border];
+  };
+  for (const SeamFace& f : faces) {
+    AddFace(&result.digest, position(f[0]), position(f[1]), position(f[2]));
+  }
+  return result;
+}
+
+}  // namespace folprom

@@ -1,0 +1,81 @@
+#include "engine/codec/layer_reader.h"
+
+#include <string>
+#include <utility>
+
+namespace folprom {
+namespace {
+
+template <class Work>
+void NamingPlace(const char* part, size_t subtree, size_t layer, Work work) {
+  try {
+    work();
+  } catch (const Failure& failure) {
+    if (failure.error().kind != ErrorKind::kCorrupt) throw;
+    throw Failure(ErrorKind::kCorrupt, std::string(part) + " " + std::to_string(subtree) +
+                                           ", layer " + std::to_string(layer) + ": " +
+                                           failure.error().message);
+  }
+}
+
+}  // namespace
+
+CodecParameters ParametersOf(const io::FileTable& table) {
+  CodecParameters parameters =
+      ReadParameters(table.codec, {table.extent[0], table.extent[1], table.extent[2]});
+  if (parameters.schedule.layers() != table.layers.size()) {
+    throw Failure(ErrorKind::kCorrupt, "the coder's settings announce " +
+                                           std::to_string(parameters.schedule.layers()) +
+                                           " layers, the table " +
+                                           std::to_string(table.layers.size()));
+  }
+  return parameters;
+}
+
+std::vector<bool> SubtreesWithBorder(const io::FileTable& table) {
+  std::vector<bool> border(table.subtrees.size(), false);
+  for (size_t s = 0; s < table.subtrees.size(); ++s) {
+    for (uint32_t lower : table.subtrees[s].lower_neighbours) border[lower] = border[s] = true;
+  }
+  return border;
+}
+
+SubtreeShape ShapeOf(const io::FileTable& table, size_t subtree) {
+  const io::SubtreeRecord& record = table.subtrees[subtree];
+  return {record.vertices,
+          {record.box_lo[0], record.box_lo[1], record.box_lo[2]},
+          {record.box_hi[0], record.box_hi[1], record.box_hi[2]},
+          false};
+}
+
+SubtreeReader::SubtreeReader(const io::ContainerReader& container,
+                             const CodecParameters& parameters, size_t subtree, bool has_border)
+    : container_(container),
+      subtree_(subtree),
+      coder_(parameters, [&] {
+        SubtreeShape shape = ShapeOf(container.table(), subtree);
+        shape.has_border = has_border;
+        return shape;
+      }()) {}
+
+void SubtreeReader::DecodeLayer() {
+  size_t layer = coder_.layers_done();
+  NamingPlace("subtree", subtree_, layer, [&] {
+    bits_.StartSegment(container_.Segment(layer, subtree_, io::SegmentPart::kInner).value());
+    coder_.CodeLayer(bits_, nullptr, nullptr);
+  });
+}
+
+SeamReader::SeamReader(const io::ContainerReader& container, const CodecParameters& parameters,
+                       size_t owner, std::vector<SeamCoder::Participant> participants)
+    : container_(container), owner_(owner), coder_(parameters, std::move(participants)) {}
+
+void SeamReader::DecodeLayer() {
+  NamingPlace("seam", owner_, layer_, [&] {
+    bits_.StartSegment(container_.Segment(layer_, owner_, io::SegmentPart::kSeam).value());
+    coder_.CodeLayer(bits_, nullptr, nullptr);
+  });
+  ++layer_;
+}
+
+}  // namespace folprom

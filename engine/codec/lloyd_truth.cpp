@@ -1,0 +1,126 @@
+#include "engine/codec/lloyd_truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace folprom {
+namespace {
+
+/// Faces inside the subtree, then the inner edges of cross faces as triples (a, b, b).
+std::vector<Face> InnerTriples(const SubtreeChunk& chunk, uint32_t subtree) {
+  std::vector<Face> triples(chunk.faces.begin(), chunk.faces.end());
+  for (const CrossFace& face : chunk.cross_faces) {
+    for (size_t i = 0; i < 3; ++i) {
+      const VertexRef &a = face.vertex[i], &b = face.vertex[(i + 1) % 3];
+      if (a.subtree == subtree && b.subtree == subtree && a.local != b.local) {
+        triples.push_back({a.local, b.local, b.local});
+      }
+    }
+  }
+  return triples;
+}
+
+}  // namespace
+
+LloydTruth::LloydTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree)
+    : chunk_(chunk),
+      tree_(tree),
+      real_faces_(chunk.faces.size()),
+      oracle_(static_cast<uint32_t>(chunk.positions.size()), InnerTriples(chunk, subtree)) {
+  std::vector<bool> at_border(chunk.positions.size(), false);
+  for (const CrossFace& face : chunk.cross_faces) {
+    for (const VertexRef& vertex : face.vertex) {
+      if (vertex.subtree == subtree) at_border[vertex.local] = true;
+    }
+  }
+  border_before_.assign(1, 0);
+  border_before_.reserve(chunk.positions.size() + 1);
+  for (uint32_t vertex : tree.order()) {
+    border_before_.push_back(border_before_.back() + (at_border[vertex] ? 1 : 0));
+  }
+  node_of_set_.reserve(chunk.positions.size());
+  node_of_set_.push_back(0);
+}
+
+uint32_t LloydTruth::ChildCount(uint32_t set) const {
+  return std::max(tree_.node(node_of_set_[set]).child_count, 1u);
+}
+
+Int3 LloydTruth::ChildRepresentative(uint32_t set, uint32_t child) const {
+  return tree_.node(tree_.node(node_of_set_[set]).first_child + child).representative;
+}
+
+void LloydTruth::BeginSplit(uint32_t set, std::span<const uint32_t> order) {
+  parent_ = node_of_set_[set];
+  order_.assign(order.begin(), order.end());
+}
+
+uint64_t LloydTruth::BorderVertices(std::span<const uint32_t> places) const {
+  uint64_t count = 0;
+  for (uint32_t place : places) {
+    const SetTree::Node& node = tree_.node(tree_.node(parent_).first_child + order_[place]);
+    count += border_before_[node.end] - border_before_[node.begin];
+  }
+  return count;
+}
+
+void LloydTruth::BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,
+                                  std::span<const uint32_t> second) {
+  first_set_ = set;
+  first_places_.assign(first.begin(), first.end());
+  second_places_.assign(second.begin(), second.end());
+  first_border_ = BorderVertices(first) > 0;
+  second_border_ = BorderVertices(second) > 0;
+  size_t sizes[2] = {0, 0};
+  const std::vector<uint32_t>* places[2] = {&first_places_, &second_places_};
+  uint32_t first_child = tree_.node(parent_).first_child;
+  for (size_t side = 0; side < 2; ++side) {
+    for (uint32_t place : *places[side]) {
+      sizes[side] += tree_.VerticesOf(first_child + order_[place]).size();
+    }
+  }
+  bool second_is_smaller = sizes[1] <= sizes[0];
+  moved_.clear();
+  for (uint32_t place : second_is_smaller ? second_places_ : first_places_) {
+    moved_.push_back(tree_.VerticesOf(first_child + order_[place]));
+  }
+  oracle_.Scan(set, moved_, second_is_smaller);
+}
+
+void LloydTruth::EndBinarySplit(uint32_t second_set) {
+  node_of_set_.resize(std::max<size_t>(node_of_set_.size(), second_set + size_t{1}));
+  uint32_t first_child = tree_.node(parent_).first_child;
+  if (first_places_.size() == 1) node_of_set_[first_set_] = first_child + order_[first_places_[0]];
+  if (second_places_.size() == 1) node_of_set_[second_set] = first_child + order_[second_places_[0]];
+}
+
+Int3 LloydTruth::VertexPosition(uint32_t set) const {
+  return tree_.node(node_of_set_[set]).representative;
+}
+
+FaceCensus LloydTruth::CountFaces(const Complex& complex) const {
+  std::vector<Face> originals(real_faces_);
+  std::vector<uint32_t> face_of(real_faces_);
+  for (uint32_t i = 0; i < real_faces_; ++i) {
+    for (size_t k = 0; k < 3; ++k) originals[i][k] = oracle_.VertexOf(oracle_.faces()[i][k]);
+    face_of[i] = oracle_.FaceOf(i);
+  }
+  return TakeCensus(complex, originals, face_of);
+}
+
+double LloydTruth::LargestDistance(const std::vector<Int3>& positions) const {
+  double largest2 = 0;
+  for (uint32_t v = 0; v < chunk_.positions.size(); ++v) {
+    Vector3 d = Difference(chunk_.positions[v], positions[oracle_.VertexOf(v)]);
+    largest2 = std::max(largest2, Dot(d, d));
+  }
+  return std::sqrt(largest2);
+}
+
+std::vector<uint32_t> LloydTruth::FinalVertices() const {
+  std::vector<uint32_t> result(chunk_.positions.size());
+  for (uint32_t v = 0; v < result.size(); ++v) result[v] = oracle_.VertexOf(v);
+  return result;
+}
+
+}  // namespace folprom

@@ -1,0 +1,56 @@
+// The encoder's answers for one subtree, from its tree of vertex sets.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/codec/subtree_coder.h"
+#include "engine/connectivity/split_oracle.h"
+#include "engine/hierarchy/lloyd_tree.h"
+#include "engine/partition/partition.h"
+
+namespace folprom {
+
+/// Answers a SubtreeCoder<BitEncoder>. Keeps references to the chunk and the tree.
+class LloydTruth final : public SubtreeTruth {
+ public:
+  LloydTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree);
+
+  Int3 RootRepresentative() const override { return tree_.node(0).representative; }
+  uint32_t ChildCount(uint32_t set) const override;
+  Int3 ChildRepresentative(uint32_t set, uint32_t child) const override;
+  void BeginSplit(uint32_t set, std::span<const uint32_t> order) override;
+  void BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,
+                        std::span<const uint32_t> second) override;
+  bool FirstTouchesBorder() const override { return first_border_; }
+  bool SecondTouchesBorder() const override { return second_border_; }
+  void EndBinarySplit(uint32_t second_set) override;
+  Int3 VertexPosition(uint32_t set) const override;
+  SplitOracle* oracle() override { return &oracle_; }
+  FaceCensus CountFaces(const Complex& complex) const override;
+
+  /// Largest distance, lattice units, of an original vertex from its representative.
+  double LargestDistance(const std::vector<Int3>& positions) const;
+  /// After all splits: index in the decoded subtree of each vertex of the chunk.
+  std::vector<uint32_t> FinalVertices() const;
+
+ private:
+  uint64_t BorderVertices(std::span<const uint32_t> places) const;
+
+  const SubtreeChunk& chunk_;
+  const SetTree& tree_;
+  size_t real_faces_;
+  SplitOracle oracle_;
+  std::vector<uint32_t> border_before_;  ///< border vertices among the first i of tree_.order()
+  std::vector<uint32_t> node_of_set_;    ///< node of the tree, valid for sets that are one node
+  // The split under way: the node whose children are being parted, and those children in their order.
+  uint32_t parent_ = 0;
+  std::vector<uint32_t> order_;
+  std::vector<uint32_t> first_places_, second_places_;
+  std::vector<std::span<const uint32_t>> moved_;
+  uint32_t first_set_ = 0;
+  bool first_border_ = false, second_border_ = false;
+};
+
+}  // namespace folprom

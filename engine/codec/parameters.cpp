@@ -1,0 +1,170 @@
+#include "engine/codec/parameters.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "engine/entropy/fixed_math.h"
+
+namespace folprom {
+namespace {
+
+constexpr double kLog2 = 0.69314718055994530942;
+
+/// Cells in split layers are this much smaller than the spacing when leaves do not wait.
+constexpr double kCellsPerSpacing = 16;
+
+double HalvedBy(double value, double octaves) {
+  uint32_t whole = static_cast<uint32_t>(octaves);
+  value = value * ExpExact(-(octaves - static_cast<double>(whole)) * kLog2);
+  for (uint32_t i = 0; i < whole; ++i) value = value / 2;
+  return value;
+}
+
+double Longest(const Int3& extent) {
+  return static_cast<double>(std::max({extent.x, extent.y, extent.z, 1}));
+}
+
+}  // namespace
+
+LayerSchedule::LayerSchedule(const Int3& extent, uint32_t layers_per_octave,
+                             uint32_t rounds_per_layer, uint32_t split_layers,
+                             uint32_t refine_layers)
+    : longest_(Longest(extent)),
+      layers_per_octave_(layers_per_octave),
+      rounds_per_layer_(rounds_per_layer),
+      split_layers_(split_layers),
+      refine_layers_(refine_layers) {}
+
+uint32_t LayerSchedule::rounds(uint32_t layer) const {
+  return layer < split_layers_ && !IsLastSplitLayer(layer) ? rounds_per_layer_ : 1;
+}
+
+double LayerSchedule::SplitSpacing(uint32_t layer, uint32_t round) const {
+  if (IsLastSplitLayer(layer)) return 0;
+  double steps = static_cast<double>(layer) +
+                 static_cast<double>(round + 1) / static_cast<double>(rounds_per_layer_);
+  return HalvedBy(longest_ / 2, steps / static_cast<double>(layers_per_octave_));
+}
+
+double LayerSchedule::RefineBound(uint32_t layer) const {
+  if (layer < split_layers_) {
+    return std::max(kLeafBound, SplitSpacing(layer, rounds(layer) - 1) / kCellsPerSpacing);
+  }
+  double bound = kLeafBound;
+  uint32_t steps = layers() - 1 - layer;
+  bound = bound * ExpExact(static_cast<double>(steps % layers_per_octave_) * kLog2 /
+                           static_cast<double>(layers_per_octave_));
+  for (uint32_t i = 0; i < steps / layers_per_octave_; ++i) bound = bound * 2;
+  return bound;
+}
+
+uint32_t MostSplitLayers(const Int3& extent, uint32_t layers_per_octave) {
+  // Down to a spacing of one tolerance; closer vertices are split in the last layer.
+  uint32_t octaves = static_cast<uint32_t>(
+      std::bit_width(static_cast<uint32_t>(Longest(extent)) >> 6));
+  return octaves * layers_per_octave + 1;
+}
+
+uint32_t MostRefineLayers(const Int3& extent, uint32_t layers_per_octave) {
+  uint32_t octaves = static_cast<uint32_t>(
+      std::bit_width(static_cast<uint32_t>(Longest(extent)) >> 4));
+  return octaves * layers_per_octave + 1;
+}
+
+OffsetSettings CodecParameters::offsets() const {
+  return {settings.children, settings.quantisation_levels, settings.adaptive_quantisation,
+          settings.predict_theta, settings.predict_height};
+}
+
+ConnectivitySettings CodecParameters::connectivity() const {
+  return {settings.pivot_order, settings.nearer_child};
+}
+
+namespace {
+
+/// One list of the fields for both directions. Visit(reference) is called once for each field.
+template <class Parameters, class Visit>
+void ForEachField(Parameters& settings, Visit visit) {
+  visit(settings.hierarchy);
+  visit(settings.offsets);
+  visit(settings.subtree_vertices);
+  visit(settings.children);
+  visit(settings.normal_metric);
+  visit(settings.metric_a);
+  visit(settings.metric_b);
+  visit(settings.lloyd_iterations);
+  visit(settings.lloyd_threshold);
+  visit(settings.representative);
+  visit(settings.curvature_threshold);
+  visit(settings.gaussian_ratio);
+  visit(settings.quantisation_levels);
+  visit(settings.adaptive_quantisation);
+  visit(settings.predict_theta);
+  visit(settings.predict_height);
+  visit(settings.split_first);
+  visit(settings.pivot_order);
+  visit(settings.nearer_child);
+  visit(settings.layers_per_octave);
+  visit(settings.rounds_per_layer);
+}
+
+static_assert(std::endian::native == std::endian::little, "fields are stored little-endian");
+
+void Append(std::vector<uint8_t>* bytes, const void* data, size_t size) {
+  const uint8_t* begin = static_cast<const uint8_t*>(data);
+  bytes->insert(bytes->end(), begin, begin + size);
+}
+
+}  // namespace
+
+std::vector<uint8_t> WriteParameters(const CodecParameters& parameters) {
+  std::vector<uint8_t> bytes;
+  ForEachField(parameters.settings, [&](const auto& field) { Append(&bytes, &field, sizeof field); });
+  uint32_t counts[2] = {parameters.schedule.split_layers(), parameters.schedule.refine_layers()};
+  Append(&bytes, counts, sizeof counts);
+  return bytes;
+}
+
+CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& extent) {
+  CodecParameters parameters;
+  parameters.extent = extent;
+  size_t position = 0;
+  auto take = [&](void* target, size_t size) {
+    if (bytes.size() - position < size) {
+      throw Failure(ErrorKind::kCorrupt, "settings of the coder end early");
+    }
+    std::memcpy(target, bytes.data() + position, size);
+    position += size;
+  };
+  ForEachField(parameters.settings, [&](auto& field) {
+    using Field = std::remove_reference_t<decltype(field)>;
+    if constexpr (std::is_same_v<Field, bool>) {
+      uint8_t value = 0;
+      take(&value, 1);
+      if (value > 1) throw Failure(ErrorKind::kCorrupt, "settings of the coder: a switch is not 0 or 1");
+      field = value == 1;
+    } else {
+      take(&field, sizeof field);
+    }
+  });
+  uint32_t counts[2];
+  take(counts, sizeof counts);
+  if (position != bytes.size()) {
+    throw Failure(ErrorKind::kCorrupt, "settings of the coder are longer than expected");
+  }
+  Result<void> checked = CheckSettings(parameters.settings);
+  if (!checked.ok()) {
+    throw Failure(ErrorKind::kCorrupt, "settings of the coder: " + checked.error().message);
+  }
+  uint32_t per_octave = parameters.settings.layers_per_octave;
+  if (counts[0] < 1 || counts[0] > MostSplitLayers(extent, per_octave) ||
+      counts[1] > MostRefineLayers(extent, per_octave)) {
+    throw Failure(ErrorKind::kCorrupt, "settings of the coder: number of layers out of range");
+  }
+  parameters.schedule = LayerSchedule(extent, per_octave, parameters.settings.rounds_per_layer,
+                                      counts[0], counts[1]);
+  return parameters;
+}
+
+}  // namespace folprom

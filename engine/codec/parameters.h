@@ -1,0 +1,65 @@
+// What both sides know before the first bit: settings, lattice, and the schedule of layers.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/connectivity/split_coder.h"
+#include "engine/geometry/offset_coder.h"
+#include "engine/mesh/types.h"
+#include "folprom/result.h"
+#include "folprom/settings.h"
+
+namespace folprom {
+
+/// The tolerance in lattice units (kUnitsPerTolerance) less what rounding to the lattice may cost
+/// twice, with a little left for arithmetic.
+inline constexpr double kLeafBound = 30.5;
+
+/// Layers 0 .. split_layers-1 split sets, the rest refine single vertices. The spacing below which
+/// sets wait falls from layer to layer by 2^(1/layers_per_octave); in the last split layer nothing
+/// waits. The bound on a vertex's cell falls by the same factor and ends at kLeafBound.
+class LayerSchedule {
+ public:
+  LayerSchedule() = default;
+  LayerSchedule(const Int3& extent, uint32_t layers_per_octave, uint32_t rounds_per_layer,
+                uint32_t split_layers, uint32_t refine_layers);
+
+  uint32_t split_layers() const { return split_layers_; }
+  uint32_t refine_layers() const { return refine_layers_; }
+  uint32_t layers() const { return split_layers_ + refine_layers_; }
+  uint32_t rounds(uint32_t layer) const;
+  bool IsLastSplitLayer(uint32_t layer) const { return layer + 1 == split_layers_; }
+  /// Sets whose spacing is at least this are split in this round; lattice units.
+  double SplitSpacing(uint32_t layer, uint32_t round) const;
+  /// Cells are halved until their bound per axis is at most this; lattice units. In split layers
+  /// (settings.split_first off) it follows the spacing.
+  double RefineBound(uint32_t layer) const;
+
+ private:
+  double longest_ = 1;
+  uint32_t layers_per_octave_ = 1, rounds_per_layer_ = 1;
+  uint32_t split_layers_ = 1, refine_layers_ = 0;
+};
+
+/// Largest numbers of layers that the schedule of a mesh can use before empty ones are dropped.
+uint32_t MostSplitLayers(const Int3& extent, uint32_t layers_per_octave);
+uint32_t MostRefineLayers(const Int3& extent, uint32_t layers_per_octave);
+
+/// Settings of the coder as one value.
+struct CodecParameters {
+  CodecSettings settings;
+  Int3 extent;
+  LayerSchedule schedule;
+
+  OffsetSettings offsets() const;
+  ConnectivitySettings connectivity() const;
+};
+
+/// The codec's own bytes in the table of the file, and back. The schedule's counts are part of them.
+std::vector<uint8_t> WriteParameters(const CodecParameters& parameters);
+/// Throws Failure kCorrupt.
+CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& extent);
+
+}  // namespace folprom

@@ -1,0 +1,368 @@
+#include "engine/codec/subtree_coder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/entropy/bit_coder.h"
+
+namespace folprom {
+namespace {
+
+/// Coordinate `value` in [lo, hi], all equally likely.
+template <class Coder>
+int32_t CodeCoordinate(Coder& coder, int32_t lo, int32_t hi, int32_t value) {
+  uint32_t span = static_cast<uint32_t>(hi) - static_cast<uint32_t>(lo), result = 0;
+  uint32_t offset = static_cast<uint32_t>(value) - static_cast<uint32_t>(lo);
+  for (int bit = static_cast<int>(std::bit_width(span)) - 1; bit >= 0; --bit) {
+    result |= static_cast<uint32_t>(coder.Code(32768, (offset >> bit) & 1)) << bit;
+  }
+  if (result > span) throw Failure(ErrorKind::kCorrupt, "coded root lies outside its box");
+  return lo + static_cast<int32_t>(result);
+}
+
+int32_t FloorMean(int64_t sum, int64_t count) {
+  return static_cast<int32_t>(sum / count);  // coordinates are never negative
+}
+
+uint64_t SquaredDistance(const Int3& a, const Int3& b) {
+  int64_t x = int64_t{a.x} - b.x, y = int64_t{a.y} - b.y, z = int64_t{a.z} - b.z;
+  return static_cast<uint64_t>(x * x) + static_cast<uint64_t>(y * y) + static_cast<uint64_t>(z * z);
+}
+
+}  // namespace
+
+SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape& shape)
+    : parameters_(parameters),
+      shape_(shape),
+      split_coder_(parameters.connectivity()),
+      offset_coder_(parameters.offsets()),
+      border_both_({16}),
+      border_side_({1}) {}
+
+template <class Coder>
+void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* meters) {
+  CostMeters unmetered;
+  if (meters == nullptr) meters = &unmetered;
+  const LayerSchedule& schedule = parameters_.schedule;
+  if (layer_ == 0) {
+    coder.SetMeter(&meters->offsets);
+    CodeRoot(coder, truth);
+  }
+  if (layer_ < schedule.split_layers()) {
+    for (uint32_t round = 0; round < schedule.rounds(layer_); ++round) {
+      CodeRound(coder, schedule.SplitSpacing(layer_, round), truth, meters);
+    }
+    if (!parameters_.settings.split_first) {
+      CodeRefinement(coder, schedule.RefineBound(layer_), truth, meters);
+    }
+    if (schedule.IsLastSplitLayer(layer_)) {
+      if (positions_.size() != shape_.vertices) {
+        throw Failure(ErrorKind::kCorrupt, "coded sets do not add up to the vertices of the subtree");
+      }
+      coder.SetMeter(&meters->exceptions);
+      FaceCensus census;
+      if constexpr (Coder::kEncoding) census = truth->CountFaces(complex_);
+      exceptions_.Code(coder, complex_, Coder::kEncoding ? &census : nullptr);
+    }
+  } else {
+    CodeRefinement(coder, schedule.RefineBound(layer_), truth, meters);
+  }
+  border_.layer_end.push_back(static_cast<uint32_t>(border_.events.size()));
+  ++layer_;
+}
+
+template <class Coder>
+void SubtreeCoder::CodeRoot(Coder& coder, SubtreeTruth* truth) {
+  Int3 root;
+  if constexpr (Coder::kEncoding) root = truth->RootRepresentative();
+  root.x = CodeCoordinate(coder, shape_.box_lo.x, shape_.box_hi.x, root.x);
+  root.y = CodeCoordinate(coder, shape_.box_lo.y, shape_.box_hi.y, root.y);
+  root.z = CodeCoordinate(coder, shape_.box_lo.z, shape_.box_hi.z, root.z);
+  complex_.AddVertex();
+  positions_.push_back(root);
+  SetRecord record;
+  record.scale = static_cast<float>(
+      std::sqrt(static_cast<double>(SquaredDistance(shape_.box_lo, shape_.box_hi))));
+  record.state = shape_.vertices == 1 ? kLeaf : kUnknown;
+  if (shape_.has_border) {
+    record.border = border_sets_++;
+    border_.root_position = root;
+  }
+  if (record.state != kLeaf) open_.push_back(0);
+  sets_.push_back(record);
+}
+
+double SubtreeCoder::Spacing(uint32_t set) const {
+  double sum = 0;
+  uint32_t count = 0;
+  const Int3& centre = positions_[set];
+  for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
+    Vector3 d = Difference(positions_[complex_.half_edge(h).target], centre);
+    sum = sum + std::sqrt(Dot(d, d));
+    ++count;
+  }
+  return count == 0 ? static_cast<double>(sets_[set].scale) : sum / count;
+}
+
+OffsetCoder::SetContext SubtreeCoder::ContextOf(uint32_t set, double spacing) const {
+  OffsetCoder::SetContext context;
+  context.spacing = spacing;
+  for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
+    bool leaf = sets_[complex_.half_edge(h).target].state == kLeaf;
+    ++(leaf ? context.leaf_neighbours : context.other_neighbours);
+  }
+  return context;
+}
+
+template <class Coder>
+void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth,
+                             CostMeters* meters) {
+  // Children that are still large enough join the end of the list and the same round.
+  size_t kept = 0;
+  for (size_t i = 0; i < open_.size(); ++i) {
+    uint32_t set = open_[i];
+    if (sets_[set].state == kLeaf) continue;
+    double spacing = Spacing(set);
+    if (spacing < least_spacing) {
+      open_[kept++] = set;
+      continue;
+    }
+    CodeSet(coder, set, spacing, truth, meters);
+  }
+  open_.resize(kept);
+}
+
+template <class Coder>
+bool SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth,
+                           CostMeters* meters) {
+  coder.SetMeter(&meters->split);
+  uint32_t count = 0;
+  if constexpr (Coder::kEncoding) count = truth->ChildCount(set);
+  if (set == 0 && positions_.size() == 1) {
+    // The only set: the table says how many vertices it holds.
+    count = std::min(shape_.vertices, parameters_.settings.children);
+  } else {
+    count = offset_coder_.CodeChildCount(coder, ContextOf(set, spacing), count);
+  }
+  if (count == 1) {
+    sets_[set].state = kLeaf;
+    return false;
+  }
+  if (positions_.size() + count - 1 > shape_.vertices) {
+    throw Failure(ErrorKind::kCorrupt, "coded sets exceed the vertices of the subtree");
+  }
+  CodeChildren(coder, set, count, truth, meters);
+  return true;
+}
+
+template <class Coder>
+void SubtreeCoder::CodeChildren(Coder& coder, uint32_t set, uint32_t count, SubtreeTruth* truth,
+                                CostMeters* meters) {
+  coder.SetMeter(&meters->offsets);
+  ring_.clear();
+  for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
+    ring_.push_back(positions_[complex_.half_edge(h).target]);
+  }
+  Neighbourhood at =
+      MeasureNeighbourhood(positions_[set], ring_, static_cast<double>(sets_[set].scale));
+  OffsetSteps steps = offset_coder_.StepsFor(at, kLeafBound);
+  if constexpr (Coder::kEncoding) {
+    std::vector<OffsetIndex> found(count);
+    order_.resize(count);
+    for (uint32_t i = 0; i < count; ++i) {
+      found[i] = offset_coder_.Quantise(at, steps, truth->ChildRepresentative(set, i));
+      order_[i] = i;
+    }
+    std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+      const OffsetIndex &l = found[a], &r = found[b];
+      if (l.theta != r.theta) return l.theta < r.theta;
+      return l.rho != r.rho ? l.rho < r.rho : l.z < r.z;
+    });
+    offsets_.resize(count);
+    for (uint32_t i = 0; i < count; ++i) offsets_[i] = found[order_[i]];
+    truth->BeginSplit(set, order_);
+  }
+  offset_coder_.CodeOffsets(coder, at, steps, count, &offsets_);
+  child_cells_.resize(count);
+  child_positions_.resize(count);
+  double reach = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    child_cells_[i] = offset_coder_.CellOf(at, steps, offsets_[i]);
+    child_positions_[i] = child_cells_[i].Position(parameters_.extent);
+    Vector3 d = Difference(child_positions_[i], positions_[set]);
+    reach = std::max(reach, Dot(d, d));
+  }
+  child_scale_ = static_cast<float>(std::sqrt(reach));
+  children_are_leaves_ = count < parameters_.settings.children;
+  GroupChildren(count);
+  CodeBinarySplits(coder, set, truth, meters);
+}
+
+void SubtreeCoder::GroupChildren(uint32_t count) {
+  groups_.clear();
+  std::vector<uint32_t> live(count);
+  std::vector<std::array<int64_t, 3>> sums(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    const Int3& p = child_positions_[i];
+    groups_.push_back({p, kNone, kNone, {i}});
+    sums[i] = {p.x, p.y, p.z};
+    live[i] = i;
+  }
+  while (live.size() > 1) {
+    size_t left = 0, right = 1;
+    uint64_t nearest = ~uint64_t{0};
+    for (size_t i = 0; i < live.size(); ++i) {
+      for (size_t j = i + 1; j < live.size(); ++j) {
+        uint64_t distance = SquaredDistance(groups_[live[i]].position, groups_[live[j]].position);
+        if (distance < nearest) {
+          nearest = distance;
+          left = i;
+          right = j;
+        }
+      }
+    }
+    Group merged;
+    merged.first = live[left];
+    merged.second = live[right];
+    merged.places = groups_[merged.first].places;
+    const auto& more = groups_[merged.second].places;
+    merged.places.insert(merged.places.end(), more.begin(), more.end());
+    std::array<int64_t, 3> sum;
+    for (size_t i = 0; i < 3; ++i) sum[i] = sums[merged.first][i] + sums[merged.second][i];
+    int64_t members = static_cast<int64_t>(merged.places.size());
+    merged.position = {FloorMean(sum[0], members), FloorMean(sum[1], members),
+                       FloorMean(sum[2], members)};
+    live[left] = static_cast<uint32_t>(groups_.size());
+    live.erase(live.begin() + static_cast<std::ptrdiff_t>(right));
+    groups_.push_back(std::move(merged));
+    sums.push_back(sum);
+  }
+}
+
+template <class Coder>
+void SubtreeCoder::CodeBinarySplits(Coder& coder, uint32_t set, SubtreeTruth* truth,
+                                    CostMeters* meters) {
+  struct Pending {
+    uint32_t group, set;
+  };
+  std::vector<Pending> pending{{static_cast<uint32_t>(groups_.size() - 1), set}};
+  while (!pending.empty()) {
+    Pending now = pending.back();
+    pending.pop_back();
+    const Group& group = groups_[now.group];
+    if (group.first == kNone) {
+      FinishChild(group.places[0], now.set);
+      continue;
+    }
+    const Group &first = groups_[group.first], &second = groups_[group.second];
+    if constexpr (Coder::kEncoding) truth->BeginBinarySplit(now.set, first.places, second.places);
+    uint32_t added =
+        CodeBinarySplit(coder, now.set, first.position, second.position, truth, meters);
+    if constexpr (Coder::kEncoding) truth->EndBinarySplit(added);
+    pending.push_back({group.second, added});
+    pending.push_back({group.first, now.set});
+  }
+}
+
+template <class Coder>
+uint32_t SubtreeCoder::CodeBinarySplit(Coder& coder, uint32_t set, const Int3& first,
+                                       const Int3& second, SubtreeTruth* truth,
+                                       CostMeters* meters) {
+  SplitCoder::Known known;
+  known.first = first;
+  known.second = second;
+  SplitOracle* oracle = nullptr;
+  if constexpr (Coder::kEncoding) oracle = truth->oracle();
+  uint32_t added = split_coder_.Code(coder, complex_, positions_, set, known, oracle,
+                                     &meters->connectivity, &meters->exceptions);
+  positions_[set] = first;
+  positions_.push_back(second);
+  sets_.push_back({});
+  if (sets_[set].border == kNone) return added;
+
+  coder.SetMeter(&meters->seams);
+  bool first_border = false, second_border = false;
+  if constexpr (Coder::kEncoding) {
+    first_border = truth->FirstTouchesBorder();
+    second_border = truth->SecondTouchesBorder();
+  }
+  uint32_t degree = 0;
+  for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone && degree < 15;
+       h = complex_.half_edge(h).next) {
+    ++degree;
+  }
+  bool both = border_both_.Code(coder, {degree}, 0, first_border && second_border);
+  if (!both) {
+    second_border = border_side_.Code(coder, {0}, 0, second_border);
+    first_border = !second_border;
+  }
+  BorderEvent event;
+  event.border = sets_[set].border;
+  event.connected = split_coder_.last_connected() ? 1 : 0;
+  if (both) {
+    event.first_vertex = set;
+    event.second_vertex = added;
+    event.first_position = first;
+    event.second_position = second;
+    sets_[added].border = border_sets_++;
+  } else {
+    event.first_vertex = first_border ? set : added;
+    event.first_position = event.second_position = first_border ? first : second;
+    if (second_border) std::swap(sets_[added].border, sets_[set].border);
+  }
+  border_.events.push_back(event);
+  return added;
+}
+
+void SubtreeCoder::FinishChild(uint32_t place, uint32_t set) {
+  SetRecord& record = sets_[set];
+  record.scale = child_scale_;
+  record.state = children_are_leaves_ ? kLeaf : kUnknown;
+  if (record.cell == kNone) {
+    record.cell = static_cast<uint32_t>(cells_.size());
+    cells_.push_back(child_cells_[place]);
+    cell_vertex_.push_back(set);
+  } else {
+    cells_[record.cell] = child_cells_[place];
+  }
+  if (record.state != kLeaf) open_.push_back(set);
+}
+
+template <class Coder>
+void SubtreeCoder::CodeRefinement(Coder& coder, double bound, SubtreeTruth* truth,
+                                  CostMeters* meters) {
+  coder.SetMeter(&meters->refinement);
+  for (uint32_t i = 0; i < cells_.size(); ++i) {
+    uint32_t vertex = cell_vertex_[i];
+    if (sets_[vertex].state != kLeaf) continue;
+    CylinderCell& cell = cells_[i];
+    if (cell.AxisBound() <= bound) continue;
+    CylinderPoint target;
+    if constexpr (Coder::kEncoding) target = ToCylinder(cell.frame, truth->VertexPosition(vertex));
+    do {
+      CylinderCell::Dimension dimension = cell.Longest();
+      bool upper = Coder::kEncoding && cell.LiesInUpper(dimension, target);
+      cell.Halve(dimension, offset_coder_.CodeHalf(coder, cell, dimension, upper));
+    } while (cell.AxisBound() > bound);
+    positions_[vertex] = cell.Position(parameters_.extent);
+  }
+}
+
+std::vector<uint32_t> SubtreeCoder::BorderVertices() const {
+  std::vector<uint32_t> vertices(border_sets_);
+  for (uint32_t v = 0; v < sets_.size(); ++v) {
+    if (sets_[v].border != kNone) vertices[sets_[v].border] = v;
+  }
+  return vertices;
+}
+
+uint64_t SubtreeCoder::face_count() const { return exceptions_.FaceCount(complex_); }
+
+void SubtreeCoder::AppendFaces(std::vector<Face>* faces) const {
+  exceptions_.AppendFaces(complex_, faces);
+}
+
+template void SubtreeCoder::CodeLayer<BitEncoder>(BitEncoder&, SubtreeTruth*, CostMeters*);
+template void SubtreeCoder::CodeLayer<BitDecoder>(BitDecoder&, SubtreeTruth*, CostMeters*);
+
+}  // namespace folprom

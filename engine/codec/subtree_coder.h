@@ -1,0 +1,148 @@
+// One subtree: its vertex sets, split round by round, and its single vertices, refined.
+//
+// Encoder and decoder run the same code; the encoder's answers come from a SubtreeTruth.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/codec/border_record.h"
+#include "engine/codec/parameters.h"
+#include "engine/connectivity/complex.h"
+#include "engine/connectivity/face_exceptions.h"
+#include "engine/connectivity/split_coder.h"
+#include "engine/geometry/cylinder_cell.h"
+#include "engine/geometry/offset_coder.h"
+#include "engine/mesh/types.h"
+
+namespace folprom {
+
+/// What the encoder answers. A "set" is named by the LOD vertex that stands for it.
+class SubtreeTruth {
+ public:
+  virtual ~SubtreeTruth() = default;
+  virtual Int3 RootRepresentative() const = 0;
+  /// Number of children of the set, 1 when it is a single vertex.
+  virtual uint32_t ChildCount(uint32_t set) const = 0;
+  virtual Int3 ChildRepresentative(uint32_t set, uint32_t child) const = 0;
+  /// The coder will call the children of the set by their place in `order` (a permutation).
+  virtual void BeginSplit(uint32_t set, std::span<const uint32_t> order) = 0;
+  /// The next binary split divides `set` into two groups of places; the first keeps its name.
+  virtual void BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,
+                                std::span<const uint32_t> second) = 0;
+  virtual bool FirstTouchesBorder() const = 0;
+  virtual bool SecondTouchesBorder() const = 0;
+  virtual void EndBinarySplit(uint32_t second_set) = 0;
+  /// Position of the only vertex of a set.
+  virtual Int3 VertexPosition(uint32_t set) const = 0;
+  virtual SplitOracle* oracle() = 0;
+  /// Final faces, in terms of `complex`, for the exceptions.
+  virtual FaceCensus CountFaces(const Complex& complex) const = 0;
+};
+
+/// Costs by kind in 1/1024 bit.
+struct CostMeters {
+  uint64_t split = 0, offsets = 0, refinement = 0, connectivity = 0, exceptions = 0, seams = 0;
+};
+
+/// What the table of the file says of a subtree.
+struct SubtreeShape {
+  uint32_t vertices = 0;
+  Int3 box_lo, box_hi;
+  bool has_border = false;  ///< does any face reach into another subtree
+};
+
+/// State of one subtree between layers. Memory is proportional to what has been decoded.
+class SubtreeCoder {
+ public:
+  SubtreeCoder(const CodecParameters& parameters, const SubtreeShape& shape);
+
+  /// Codes the next layer. truth and meters: encoder only. The decoder throws Failure kCorrupt.
+  template <class Coder>
+  void CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
+
+  uint32_t layers_done() const { return layer_; }
+  const std::vector<Int3>& positions() const { return positions_; }
+  const Complex& complex() const { return complex_; }
+  const BorderRecord& border() const { return border_; }
+  /// Number of the border set that the vertex stands for, kNone when it touches no other subtree.
+  uint32_t BorderOf(uint32_t vertex) const { return sets_[vertex].border; }
+  /// The vertex of each border set of the current LOD.
+  std::vector<uint32_t> BorderVertices() const;
+
+  /// Faces of the current LOD; after the last split layer those of the original mesh, all of them.
+  uint64_t face_count() const;
+  void AppendFaces(std::vector<Face>* faces) const;
+
+ private:
+  enum SetState : uint8_t { kUnknown = 0, kLeaf = 1 };
+  struct SetRecord {
+    float scale = 0;           ///< spacing to assume without neighbours, lattice units
+    uint32_t cell = kNone;     ///< index into cells_; kNone: the position is exact
+    uint32_t border = kNone;   ///< number of the border set
+    SetState state = kUnknown;
+  };
+
+  template <class Coder>
+  void CodeRoot(Coder& coder, SubtreeTruth* truth);
+  template <class Coder>
+  void CodeRound(Coder& coder, double spacing, SubtreeTruth* truth, CostMeters* meters);
+  /// Returns false when the set turned out to be a single vertex.
+  template <class Coder>
+  bool CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth, CostMeters* meters);
+  template <class Coder>
+  void CodeChildren(Coder& coder, uint32_t set, uint32_t count, SubtreeTruth* truth,
+                    CostMeters* meters);
+  template <class Coder>
+  void CodeBinarySplits(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters);
+  template <class Coder>
+  uint32_t CodeBinarySplit(Coder& coder, uint32_t set, const Int3& first, const Int3& second,
+                           SubtreeTruth* truth, CostMeters* meters);
+  template <class Coder>
+  void CodeRefinement(Coder& coder, double bound, SubtreeTruth* truth, CostMeters* meters);
+  double Spacing(uint32_t set) const;
+  OffsetCoder::SetContext ContextOf(uint32_t set, double spacing) const;
+  void FinishChild(uint32_t place, uint32_t set);
+
+  /// The binary splits by which K children come about (section 3.2 repeats the binary split): the
+  /// nearest two are parted last.
+  struct Group {
+    Int3 position;
+    uint32_t first = kNone, second = kNone;  ///< groups inside, kNone for a child
+    std::vector<uint32_t> places;
+  };
+  void GroupChildren(uint32_t count);
+
+  CodecParameters parameters_;
+  SubtreeShape shape_;
+  uint32_t layer_ = 0;
+
+  Complex complex_;
+  std::vector<Int3> positions_;
+  std::vector<SetRecord> sets_;
+  std::vector<CylinderCell> cells_;
+  std::vector<uint32_t> cell_vertex_;
+  std::vector<uint32_t> open_;
+  BorderRecord border_;
+  uint32_t border_sets_ = 0;
+
+  SplitCoder split_coder_;
+  OffsetCoder offset_coder_;
+  MixedModel<1> border_both_;
+  MixedModel<1> border_side_;
+  FaceExceptions exceptions_;
+
+  // Scratch of one split.
+  std::vector<Int3> ring_;
+  std::vector<OffsetIndex> offsets_;
+  std::vector<CylinderCell> child_cells_;
+  std::vector<Int3> child_positions_;
+  std::vector<Group> groups_;
+  std::vector<uint32_t> order_;
+  float child_scale_ = 0;
+  bool children_are_leaves_ = false;
+};
+
+}  // namespace folprom

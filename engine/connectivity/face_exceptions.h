@@ -1,0 +1,45 @@
+// What the complex alone does not say of the faces: orientation, copies, degenerate faces.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/connectivity/complex.h"
+#include "engine/mesh/types.h"
+
+namespace folprom {
+
+/// The true number of faces per element of a complex, counted by the encoder.
+struct FaceCensus {
+  std::vector<uint32_t> forward;   ///< per face: originals of its orientation
+  std::vector<uint32_t> backward;  ///< per face: originals of the opposite orientation
+  std::vector<std::array<uint32_t, 2>> on_edge;  ///< per edge (a, b): faces (a, a, b), (a, b, b)
+  std::vector<uint32_t> on_vertex;               ///< per vertex: faces (a, a, a)
+};
+
+/// Counts the faces of `originals` (vertices of the complex, after all splits). face_of[i] is the
+/// face of the complex on which original i lies, kNone when it is degenerate.
+FaceCensus TakeCensus(const Complex& complex, const std::vector<Face>& originals,
+                      const std::vector<uint32_t>& face_of);
+
+/// Coded once, when every set is a single vertex.
+class FaceExceptions {
+ public:
+  /// census: encoder only.
+  template <class Coder>
+  void Code(Coder& coder, const Complex& complex, const FaceCensus* census);
+
+  /// Faces in their final number and orientation. Before Code: those of the complex.
+  uint64_t FaceCount(const Complex& complex) const {
+    return complex.face_count() + uint64_t{extra_.size()};
+  }
+  void AppendFaces(const Complex& complex, std::vector<Face>* faces) const;
+
+ private:
+  void Repeat(const Face& face, uint32_t count);
+  std::vector<bool> reversed_;  ///< per face; empty when none is
+  std::vector<Face> extra_;     ///< further copies and degenerate faces
+};
+
+}  // namespace folprom

@@ -1,0 +1,357 @@
+#include "engine/connectivity/split_coder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/entropy/bit_coder.h"
+#include "engine/entropy/fixed_math.h"
+
+namespace folprom {
+namespace {
+
+constexpr uint32_t kLeanBuckets = 12;
+constexpr uint32_t kRegularityBuckets = 16;
+
+double SquaredDistance(const Int3& a, const Int3& b) {
+  double x = static_cast<double>(a.x) - b.x, y = static_cast<double>(a.y) - b.y,
+         z = static_cast<double>(a.z) - b.z;
+  return x * x + y * y + z * z;
+}
+
+uint32_t LeanBucket(int32_t lean) {
+  constexpr int32_t kBounds[kLeanBuckets - 1] = {10, 22, 36, 52, 70, 90, 112, 140, 180, 250, 400};
+  int32_t size = lean < 0 ? -lean : lean;
+  uint32_t bucket = 0;
+  while (bucket < kLeanBuckets - 1 && size >= kBounds[bucket]) ++bucket;
+  return bucket;
+}
+
+uint32_t RegularityBucket(uint32_t regularity) {
+  int bucket = HalfOctave(regularity) - 17;  // an equilateral triangle gives 27 * 16
+  return static_cast<uint32_t>(std::clamp(bucket, 0, static_cast<int>(kRegularityBuckets) - 1));
+}
+
+uint32_t DegreeBucket(size_t degree) {
+  if (degree <= 7) return static_cast<uint32_t>(degree);
+  return degree <= 9 ? 8 : (degree <= 14 ? 9 : 10);
+}
+constexpr uint32_t kDegreeBuckets = 11;
+
+/// The paper's R (section 3.2), squared, in 1/16. Division and multiplication only, so exact to repeat.
+uint32_t Regularity(double a2, double b2, double c2) {
+  double a = std::sqrt(a2), b = std::sqrt(b2), c = std::sqrt(c2);
+  double s = (a + b + c) / 2;
+  double product = (s - a) * (s - b) * (s - c);
+  constexpr double kLargest = 2147483647;
+  if (!(product > 0)) return static_cast<uint32_t>(kLargest);
+  double value = 16 * (s * s * s / product);
+  return static_cast<uint32_t>(value < kLargest ? value : kLargest);
+}
+
+uint32_t AtMost(uint32_t value, uint32_t most) { return value < most ? value : most; }
+
+}  // namespace
+
+SplitCoder::SplitCoder(ConnectivitySettings settings)
+    : settings_(settings),
+      connected_({kDegreeBuckets * 4, 16 * 4}, 1),
+      pivot_({8 * 4 * 2 * kDegreeBuckets, kRegularityBuckets * 4 * 9,
+              4 * kLeanBuckets * 8 * 4},
+             8),
+      side_({kLeanBuckets * 4 * 2, 3 * 3 * kLeanBuckets * 2, kDegreeBuckets * kLeanBuckets}, 4),
+      face_both_({16, 4}, 1),
+      face_side_({kLeanBuckets, 4}, 1),
+      new_face_({9 * 3, 6 * 3}, 1),
+      orientation_({15}, 1) {}
+
+void SplitCoder::Gather(const Complex& complex, uint32_t vertex) {
+  star_.vertex = vertex;
+  star_.neighbours.clear();
+  star_.faces.clear();
+  if (slot_of_vertex_.size() < complex.vertex_count()) {
+    slot_of_vertex_.resize(complex.vertex_count() + complex.vertex_count() / 2, kNone);
+  }
+  for (uint32_t h = complex.FirstHalfEdge(vertex); h != kNone; h = complex.half_edge(h).next) {
+    uint32_t target = complex.half_edge(h).target;
+    slot_of_vertex_[target] = static_cast<uint32_t>(star_.neighbours.size());
+    SplitStar::Neighbour neighbour{};
+    neighbour.vertex = target;
+    neighbour.half_edge = h;
+    neighbour.first_face = neighbour.new_edge = neighbour.new_face = kNone;
+    star_.neighbours.push_back(neighbour);
+  }
+  for (uint32_t c = complex.FirstCorner(vertex); c != kNone; c = complex.corner(c).next) {
+    uint32_t index = static_cast<uint32_t>(star_.faces.size());
+    SplitStar::StarFace face{};
+    face.corner = c;
+    face.new_face = kNone;
+    uint32_t ends[2] = {complex.corner(NextCorner(c)).vertex,
+                        complex.corner(PreviousCorner(c)).vertex};
+    for (uint32_t i = 0; i < 2; ++i) {
+      uint32_t slot = slot_of_vertex_[ends[i]];
+      face.end[i] = slot;
+      face.next_link[i] = kNone;
+      if (slot == kNone) continue;
+      face.next_link[i] = star_.neighbours[slot].first_face;
+      star_.neighbours[slot].first_face = 2 * index + i;
+      ++star_.neighbours[slot].face_count;
+    }
+    star_.faces.push_back(face);
+  }
+  for (const auto& neighbour : star_.neighbours) slot_of_vertex_[neighbour.vertex] = kNone;
+}
+
+void SplitCoder::Measure(const std::vector<Int3>& positions, const Known& known) {
+  double between = SquaredDistance(known.first, known.second);
+  children_distance_ = std::sqrt(between);
+  mean_distance_ = 0;
+  const Int3& parent = positions[star_.vertex];
+  for (auto& neighbour : star_.neighbours) {
+    const Int3& position = positions[neighbour.vertex];
+    double to_first = SquaredDistance(position, known.first);
+    double to_second = SquaredDistance(position, known.second);
+    neighbour.regularity = Regularity(to_first, to_second, between);
+    double lean = between > 0 ? 128 * (to_first - to_second) / between : 0;
+    neighbour.lean = static_cast<int32_t>(std::clamp(lean, -1e6, 1e6));
+    mean_distance_ += std::sqrt(SquaredDistance(position, parent));
+  }
+  if (!star_.neighbours.empty()) mean_distance_ /= static_cast<double>(star_.neighbours.size());
+}
+
+void SplitCoder::SortPivotCandidates() {
+  order_.resize(star_.neighbours.size());
+  for (uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
+  bool by_regularity = settings_.pivot_order;
+  std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+    const auto& left = star_.neighbours[a];
+    const auto& right = star_.neighbours[b];
+    if (by_regularity && left.regularity != right.regularity) {
+      return left.regularity < right.regularity;
+    }
+    return left.vertex < right.vertex;
+  });
+}
+
+template <class Coder>
+void SplitCoder::CodePivots(Coder& coder, SplitOracle* oracle) {
+  pivots_ = 0;
+  uint32_t degree = DegreeBucket(order_.size());
+  for (uint32_t rank = 0; rank < order_.size(); ++rank) {
+    auto& neighbour = star_.neighbours[order_[rank]];
+    uint32_t beside_pivot = 0, beside_other = 0;
+    ForEachLink(order_[rank], [&](uint32_t, uint32_t other) {
+      if (other == kNone) return;
+      uint32_t place = star_.neighbours[other].side;
+      if (place == kBoth) ++beside_pivot;
+      if (place == kFirst) ++beside_other;  // kFirst marks "looked at, no pivot" during this pass
+    });
+    uint32_t found = AtMost(pivots_, 3), joined = star_.connected ? 1 : 0;
+    uint32_t regularity = RegularityBucket(neighbour.regularity);
+    uint32_t context0 = ((AtMost(rank, 7) * 4 + found) * 2 + joined) * kDegreeBuckets + degree;
+    uint32_t context1 =
+        (regularity * 4 + found) * 9 + AtMost(beside_pivot, 2) * 3 + AtMost(beside_other, 2);
+    uint32_t context2 = ((AtMost(neighbour.face_count, 3) * kLeanBuckets +
+                          LeanBucket(neighbour.lean)) * 8 + regularity / 2) * 4 + found;
+    bool pivot = false;
+    if constexpr (Coder::kEncoding) {
+      pivot = oracle->NeighbourSide(neighbour.half_edge, neighbour.vertex) == kBoth;
+    }
+    pivot = pivot_.Code(coder, {context0, context1, context2}, joined * 4 + found, pivot);
+    neighbour.side = pivot ? kBoth : kFirst;
+    if (pivot) ++pivots_;
+  }
+  for (auto& neighbour : star_.neighbours) {
+    if (neighbour.side != kBoth) neighbour.side = kUndecided;
+  }
+}
+
+void SplitCoder::SpreadSide(uint32_t start, Side side) {
+  // A face of two neighbours that are no pivots lies on one side, and so do both of them.
+  star_.neighbours[start].side = side;
+  stack_.assign(1, start);
+  while (!stack_.empty()) {
+    uint32_t current = stack_.back();
+    stack_.pop_back();
+    ForEachLink(current, [&](uint32_t, uint32_t other) {
+      if (other == kNone || star_.neighbours[other].side != kUndecided) return;
+      star_.neighbours[other].side = side;
+      stack_.push_back(other);
+    });
+  }
+}
+
+template <class Coder>
+void SplitCoder::CodeSides(Coder& coder, SplitOracle* oracle) {
+  auto size_of_lean = [&](uint32_t i) {
+    int32_t lean = star_.neighbours[i].lean;
+    return lean < 0 ? -lean : lean;
+  };
+  std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+    int32_t left = size_of_lean(a), right = size_of_lean(b);
+    if (left != right) return left > right;
+    return star_.neighbours[a].vertex < star_.neighbours[b].vertex;
+  });
+  uint32_t decided = 0, degree = DegreeBucket(order_.size()), joined = star_.connected ? 1 : 0;
+  Side last = kUndecided;
+  for (uint32_t index : order_) {
+    auto& neighbour = star_.neighbours[index];
+    if (neighbour.side != kUndecided) continue;
+    Side nearer = settings_.nearer_child && neighbour.lean < 0 ? kFirst : kSecond;
+    uint32_t lean = LeanBucket(neighbour.lean);
+    uint32_t relation = last == kUndecided ? 0 : (last == nearer ? 1 : 2);
+    uint32_t context0 = (lean * 4 + AtMost(pivots_, 3)) * 2 + joined;
+    uint32_t context1 = ((relation * 3 + AtMost(decided, 2)) * kLeanBuckets + lean) * 2 +
+                        (neighbour.face_count > 1 ? 1 : 0);
+    uint32_t context2 = degree * kLeanBuckets + lean;
+    bool farther = false;
+    if constexpr (Coder::kEncoding) {
+      farther = oracle->NeighbourSide(neighbour.half_edge, neighbour.vertex) != nearer;
+    }
+    farther = side_.Code(coder, {context0, context1, context2}, AtMost(decided, 3), farther);
+    last = farther ? (nearer == kFirst ? kSecond : kFirst) : nearer;
+    SpreadSide(index, last);
+    ++decided;
+  }
+}
+
+void SplitCoder::CountFace(const SplitStar::StarFace& face) {
+  for (uint32_t i = 0; i < 2; ++i) {
+    if (face.end[i] == kNone) continue;
+    auto& neighbour = star_.neighbours[face.end[i]];
+    // End 0 follows the split vertex: the face runs first -> neighbour, the new face
+    // (first, second, neighbour) back; so they agree.
+    int vote = i == 0 ? 1 : -1;
+    if (face.side & kFirst) {
+      neighbour.faces_first = static_cast<uint16_t>(AtMost(neighbour.faces_first + 1u, 2));
+      neighbour.votes = static_cast<int8_t>(std::clamp(neighbour.votes + vote, -2, 2));
+    }
+    if (face.side & kSecond) {
+      neighbour.faces_second = static_cast<uint16_t>(AtMost(neighbour.faces_second + 1u, 2));
+      neighbour.votes = static_cast<int8_t>(std::clamp(neighbour.votes - vote, -2, 2));
+    }
+  }
+}
+
+template <class Coder>
+void SplitCoder::CodeFaces(Coder& coder, SplitOracle* oracle) {
+  for (auto& face : star_.faces) {
+    int possible = kBoth;
+    int32_t lean = 0;
+    for (uint32_t end : face.end) {
+      if (end == kNone) continue;
+      possible &= star_.neighbours[end].side;
+      lean += star_.neighbours[end].lean / 2;
+    }
+    if (possible == kBoth) {
+      Side truth = kUndecided;
+      if constexpr (Coder::kEncoding) truth = oracle->FaceSide(face.corner / 3);
+      uint32_t pivots = AtMost(pivots_, 3), bucket = LeanBucket(lean);
+      uint32_t foreign = face.end[0] == kNone || face.end[1] == kNone ? 1 : 0;
+      if (face_both_.Code(coder, {pivots * 4 + (star_.connected ? 2u : 0u) + foreign, bucket / 3}, 0,
+                          truth == kBoth)) {
+        face.side = kBoth;
+      } else {
+        Side nearer = lean < 0 ? kFirst : kSecond;
+        bool farther = face_side_.Code(coder, {bucket, pivots}, 0, truth != nearer);
+        face.side = farther ? (nearer == kFirst ? kSecond : kFirst) : nearer;
+      }
+    } else {
+      face.side = static_cast<Side>(possible);
+    }
+    CountFace(face);
+  }
+}
+
+template <class Coder>
+void SplitCoder::CodeNewFaces(Coder& coder, SplitOracle* oracle, Complex& complex) {
+  if (!star_.connected) return;
+  uint32_t made = 0;
+  uint32_t before = 0;  // orientation of the face made last: 0 none, 1 backward, 2 forward
+  for (uint32_t index : order_) {
+    auto& neighbour = star_.neighbours[index];
+    if (neighbour.side != kBoth) continue;
+    bool exists = false;
+    if constexpr (Coder::kEncoding) exists = oracle->HasNewFace(neighbour.vertex);
+    uint32_t around = neighbour.faces_first * 3u + neighbour.faces_second;
+    exists = new_face_.Code(
+        coder, {around * 3 + AtMost(made, 2), AtMost(pivots_, 5) * 3 + AtMost(made, 2)}, 0, exists);
+    if (!exists) continue;
+    bool forward = false;
+    if constexpr (Coder::kEncoding) forward = oracle->NewFaceForward(neighbour.vertex);
+    uint32_t votes = static_cast<uint32_t>(neighbour.votes + 2);
+    forward = orientation_.Code(coder, {votes * 3 + before}, 0, forward);
+    before = forward ? 2 : 1;
+    ++made;
+    neighbour.new_face = forward
+                             ? complex.AddFace(star_.vertex, star_.second, neighbour.vertex)
+                             : complex.AddFace(star_.second, star_.vertex, neighbour.vertex);
+  }
+}
+
+void SplitCoder::ApplySides(Complex& complex) {
+  for (auto& neighbour : star_.neighbours) {
+    if (neighbour.side == kSecond) {
+      complex.MoveHalfEdge(neighbour.half_edge, star_.vertex, star_.second);
+    } else if (neighbour.side == kBoth) {
+      neighbour.new_edge = complex.AddEdge(star_.second, neighbour.vertex);
+    }
+  }
+  if (star_.connected && owns_child_edge_) {
+    star_.child_edge = complex.AddEdge(star_.vertex, star_.second);
+  }
+  for (auto& face : star_.faces) {
+    if (face.side == kSecond) {
+      complex.MoveCorner(face.corner, star_.vertex, star_.second);
+    } else if (face.side == kBoth) {
+      Face copy = complex.face(face.corner / 3);
+      copy[face.corner % 3] = star_.second;
+      face.new_face = complex.AddFace(copy[0], copy[1], copy[2]);
+    }
+  }
+}
+
+template <class Coder>
+uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3>& positions,
+                          uint32_t vertex, const Known& known, SplitOracle* oracle,
+                          uint64_t* connectivity_meter, uint64_t* exception_meter) {
+  Gather(complex, vertex);
+  Measure(positions, known);
+  star_.second = complex.AddVertex();
+  star_.child_edge = kNone;
+  coder.SetMeter(connectivity_meter);
+  star_.connected = known.connected;
+  owns_child_edge_ = known.code_connected;
+  if (known.code_connected) {
+    double ratio = mean_distance_ > 0 ? 64 * children_distance_ / mean_distance_ : 0;
+    uint32_t bucket = static_cast<uint32_t>(
+        std::clamp(HalfOctave(static_cast<uint64_t>(std::min(ratio, 1e6))), 0, 15));
+    uint32_t degree = DegreeBucket(star_.neighbours.size());
+    uint32_t faces = AtMost(static_cast<uint32_t>(star_.faces.size()), 3);
+    bool truth = false;
+    if constexpr (Coder::kEncoding) truth = oracle->connected();
+    star_.connected = connected_.Code(coder, {degree * 4 + faces, bucket * 4 + faces}, 0, truth);
+  }
+  SortPivotCandidates();
+  if (known.all == kUndecided) {
+    CodePivots(coder, oracle);
+    CodeSides(coder, oracle);
+  } else {
+    pivots_ = 0;
+    for (auto& neighbour : star_.neighbours) neighbour.side = known.all;
+  }
+  coder.SetMeter(exception_meter);
+  CodeFaces(coder, oracle);
+  ApplySides(complex);
+  CodeNewFaces(coder, oracle, complex);
+  if constexpr (Coder::kEncoding) oracle->Commit(star_);
+  return star_.second;
+}
+
+template uint32_t SplitCoder::Code<BitEncoder>(BitEncoder&, Complex&, const std::vector<Int3>&,
+                                               uint32_t, const Known&, SplitOracle*, uint64_t*,
+                                               uint64_t*);
+template uint32_t SplitCoder::Code<BitDecoder>(BitDecoder&, Complex&, const std::vector<Int3>&,
+                                               uint32_t, const Known&, SplitOracle*, uint64_t*,
+                                               uint64_t*);
+
+}  // namespace folprom

@@ -1,0 +1,97 @@
+// Codes the connectivity of one binary split (section 3.2) and applies it to the complex.
+//
+// Beyond the paper, faces are part of the state: a face of an LOD exists exactly when an original
+// face joins its three sets. So a mesh whose edges form many more 3-cliques than faces costs time
+// and bits by its faces, and no LOD shows a clique that is not a face.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/connectivity/complex.h"
+#include "engine/connectivity/split_oracle.h"
+#include "engine/connectivity/split_star.h"
+#include "engine/entropy/mixed_model.h"
+#include "engine/mesh/types.h"
+
+namespace folprom {
+
+/// Which of the paper's techniques are on.
+struct ConnectivitySettings {
+  bool pivot_order = true;
+  bool nearer_child = true;
+};
+
+/// Learning state of the connectivity decisions, kept from layer to layer.
+class SplitCoder {
+ public:
+  explicit SplitCoder(ConnectivitySettings settings);
+
+  /// What is known of the split before its connectivity.
+  struct Known {
+    Int3 first;               ///< position of the first child
+    Int3 second;              ///< position of the second child
+    /// false: `connected` is known to both sides, and the edge belongs to another complex.
+    bool code_connected = true;
+    bool connected = false;
+    Side all = kUndecided;    ///< kFirst or kSecond: every neighbour goes to that child
+  };
+
+  /// Codes and applies the split of `vertex` into itself and a new vertex, which is returned.
+  /// `positions` is indexed by vertex and still holds the parent's position. The oracle (encoder
+  /// only) answers what is true. `meters` receive the cost of connectivity and of exceptions.
+  template <class Coder>
+  uint32_t Code(Coder& coder, Complex& complex, const std::vector<Int3>& positions, uint32_t vertex,
+                const Known& known, SplitOracle* oracle, uint64_t* connectivity_meter,
+                uint64_t* exception_meter);
+
+  /// Were the children of the split coded last connected.
+  bool last_connected() const { return star_.connected; }
+
+ private:
+  void Gather(const Complex& complex, uint32_t vertex);
+  void Measure(const std::vector<Int3>& positions, const Known& known);
+  void SortPivotCandidates();
+  template <class Coder>
+  void CodePivots(Coder& coder, SplitOracle* oracle);
+  template <class Coder>
+  void CodeSides(Coder& coder, SplitOracle* oracle);
+  void SpreadSide(uint32_t start, Side side);
+  template <class Coder>
+  void CodeFaces(Coder& coder, SplitOracle* oracle);
+  template <class Coder>
+  void CodeNewFaces(Coder& coder, SplitOracle* oracle, Complex& complex);
+  void CountFace(const SplitStar::StarFace& face);
+  void ApplySides(Complex& complex);
+
+  template <class Visit>
+  void ForEachLink(uint32_t neighbour, Visit visit) const {
+    uint32_t link = star_.neighbours[neighbour].first_face;
+    while (link != kNone) {
+      const SplitStar::StarFace& face = star_.faces[link / 2];
+      visit(link / 2, face.end[1 - link % 2]);
+      link = face.next_link[link % 2];
+    }
+  }
+
+  ConnectivitySettings settings_;
+  SplitStar star_;
+  std::vector<uint32_t> slot_of_vertex_;  ///< index into star_.neighbours, valid where stamped
+  std::vector<uint32_t> order_;
+  std::vector<uint32_t> stack_;
+  uint32_t pivots_ = 0;
+  bool owns_child_edge_ = true;
+  double children_distance_ = 0;
+  double mean_distance_ = 0;
+
+  MixedModel<2> connected_;
+  MixedModel<3> pivot_;
+  MixedModel<3> side_;
+  MixedModel<2> face_both_;
+  MixedModel<2> face_side_;
+  MixedModel<2> new_face_;
+  MixedModel<1> orientation_;
+};
+
+}  // namespace folprom

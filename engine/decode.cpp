@@ -1,0 +1,160 @@
+// Decoding, stage by stage.
+#include <algorithm>
+#include <numeric>
+
+#include "engine/decode_pipeline.h"
+#include "engine/folp_file.h"
+#include "engine/mesh_sinks.h"
+#include "engine/run_guarded.h"
+#include "folprom/folprom.h"
+#include "io/formats/ply_writer.h"
+
+namespace folprom {
+namespace {
+
+/// Number of layers that the options ask for, of those that are there.
+size_t LayersFor(const FolpFile& file, const DecodeOptions& options) {
+  const io::FileTable& table = file.table();
+  size_t present = file.container().complete_layers();
+  if (present == 0) {
+    throw Failure(ErrorKind::kCorrupt, "the file is cut before the end of its first layer");
+  }
+  auto last_that = [&](auto fits) {
+    size_t count = 1;
+    while (count < present && fits(count)) ++count;
+    return count;
+  };
+  if (options.layers > 0) return std::min<size_t>(options.layers, present);
+  if (options.bits_per_vertex > 0) {
+    double budget = options.bits_per_vertex * static_cast<double>(table.vertices) / 8;
+    return last_that([&](size_t layer) {
+      return static_cast<double>(file.container().LayerEnd(layer)) <= budget;
+    });
+  }
+  if (options.max_vertices > 0) {
+    return last_that([&](size_t layer) { return table.layers[layer].vertices <= options.max_vertices; });
+  }
+  if (options.max_error > 0) {
+    for (size_t layer = 0; layer < present; ++layer) {
+      if (static_cast<double>(table.layers[layer].error_bound) <= options.max_error) return layer + 1;
+    }
+  }
+  return present;
+}
+
+void CheckOptions(const DecodeOptions& options) {
+  int bounds = (options.bits_per_vertex > 0) + (options.max_error > 0) +
+               (options.max_vertices > 0) + (options.layers > 0);
+  if (bounds > 1) {
+    throw Failure(ErrorKind::kUsage, "only one of rate, error, vertices and layers can bound a decoding");
+  }
+  for (int i = 0; options.use_region && i < 3; ++i) {
+    if (!(options.region_lo[i] <= options.region_hi[i])) {
+      throw Failure(ErrorKind::kUsage, "the region's lower corner lies above its upper corner");
+    }
+  }
+}
+
+DecodeSelection SelectionFor(const FolpFile& file, const DecodeOptions& options) {
+  DecodeSelection selection;
+  selection.layers = LayersFor(file, options);
+  const io::FileTable& table = file.table();
+  if (options.use_region) {
+    double lo[3], hi[3];
+    for (size_t i = 0; i < 3; ++i) {
+      lo[i] = (options.region_lo[i] - table.origin[i]) / table.unit;
+      hi[i] = (options.region_hi[i] - table.origin[i]) / table.unit;
+    }
+    selection.wanted = SubtreesInBox(table, lo, hi);
+  } else {
+    selection.wanted.resize(table.subtrees.size());
+    std::iota(selection.wanted.begin(), selection.wanted.end(), 0u);
+  }
+  return selection;
+}
+
+class DecodeJob {
+ public:
+  DecodeJob(const std::string& input, const std::string& output, const DecodeOptions& options,
+            parallel::Runner& runner, parallel::Progress& progress)
+      : output_(output), options_(options), runner_(runner), progress_(progress), file_(input) {
+    CheckOptions(options);
+    selection_ = SelectionFor(file_, options);
+  }
+
+  DecodeReport Run() {
+    const io::FileTable& table = file_.table();
+    DecodeReport report;
+    report.layers = selection_.layers;
+    report.layers_total = table.layers.size();
+    report.complete = report.layers == report.layers_total && !options_.use_region;
+    report.bytes_read = BytesNeeded(file_.container(), selection_);
+    report.error_bound = static_cast<double>(table.layers[selection_.layers - 1].error_bound);
+    size_t present = file_.container().complete_layers();
+    if (present < report.layers_total) {
+      report.warnings.push_back("the file is cut: " + std::to_string(present) + " of " +
+                                std::to_string(report.layers_total) + " layers are whole");
+    }
+    if (options_.use_region) {
+      DecodeRegion(&report);
+    } else {
+      DecodeAll(&report);
+    }
+    return report;
+  }
+
+ private:
+  std::unique_ptr<io::PlyWriter> MakeWriter(uint64_t vertices, uint64_t faces) const {
+    auto type = static_cast<io::ScalarType>(file_.table().coordinate_type);
+    return io::PlyWriter::Create(output_, vertices, faces, type, options_.overwrite).value();
+  }
+  void Decode(MeshSink& sink) {
+    DecodeInto(file_.container(), file_.parameters(), selection_, options_.memory_bytes,
+               options_.temporary_folder, runner_, progress_, sink);
+  }
+
+  void DecodeAll(DecodeReport* report) {
+    const io::LayerRecord& layer = file_.table().layers[selection_.layers - 1];
+    auto writer = MakeWriter(layer.vertices, layer.faces);
+    PlySink sink(file_.lattice(), *writer);
+    Decode(sink);
+    report->vertices = sink.vertices();
+    report->faces = sink.faces();
+    if (sink.vertices() != layer.vertices || sink.faces() != layer.faces) {
+      throw Failure(ErrorKind::kCorrupt, "decoded counts differ from those of the table");
+    }
+    writer->Commit().value();
+  }
+
+  void DecodeRegion(DecodeReport* report) {
+    io::SpillDirectory spill(options_.temporary_folder);
+    std::array<double, 3> lo, hi;
+    std::copy_n(options_.region_lo, 3, lo.begin());
+    std::copy_n(options_.region_hi, 3, hi.begin());
+    RegionSink sink(file_.lattice(), lo, hi, spill);
+    Decode(sink);
+    report->vertices = sink.vertices();
+    report->faces = sink.faces();
+    auto writer = MakeWriter(sink.vertices(), sink.faces());
+    sink.WriteTo(*writer);
+    writer->Commit().value();
+  }
+
+  std::string output_;
+  DecodeOptions options_;
+  parallel::Runner& runner_;
+  parallel::Progress& progress_;
+  FolpFile file_;
+  DecodeSelection selection_;
+};
+
+}  // namespace
+
+Result<DecodeReport> DecodeFile(const std::string& input, const std::string& output,
+                                const DecodeOptions& options, parallel::Runner& runner,
+                                parallel::Progress& progress) {
+  return RunGuarded<DecodeReport>(
+      [&] { return DecodeJob(input, output, options, runner, progress).Run(); });
+}
+
+}  // namespace folprom

@@ -1,0 +1,197 @@
+#include "engine/decode_pipeline.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/codec/border_file.h"
+#include "engine/codec/layer_reader.h"
+
+namespace folprom {
+namespace {
+
+/// Per vertex of a subtree: complex, cells and sets 420, results 60.
+constexpr uint64_t kBytesPerVertex = 480;
+
+/// How many subtrees may be under way or waiting for their turn.
+size_t WindowOf(const io::FileTable& table, const std::vector<uint32_t>& subtrees,
+                uint64_t memory_bytes, int threads) {
+  uint64_t largest = 1;
+  for (uint32_t s : subtrees) largest = std::max<uint64_t>(largest, table.subtrees[s].vertices);
+  uint64_t fitting = memory_bytes / 2 / (largest * kBytesPerVertex);
+  return static_cast<size_t>(std::clamp<uint64_t>(fitting, 1, 3 * static_cast<uint64_t>(threads)));
+}
+
+struct DecodedPart {
+  std::vector<Int3> positions;
+  std::vector<Face> faces;
+  std::vector<uint32_t> border_vertices;
+};
+
+class Pipeline {
+ public:
+  Pipeline(const io::ContainerReader& container, const CodecParameters& parameters,
+           const DecodeSelection& selection, uint64_t memory_bytes,
+           const std::string& temporary_folder, parallel::Runner& runner,
+           parallel::Progress& progress, MeshSink& sink)
+      : container_(container),
+        table_(container.table()),
+        parameters_(parameters),
+        selection_(selection),
+        needed_(NeededSubtrees(table_, selection.wanted)),
+        has_border_(SubtreesWithBorder(table_)),
+        memory_bytes_(memory_bytes),
+        runner_(runner),
+        progress_(progress),
+        sink_(sink) {
+    if (std::find(has_border_.begin(), has_border_.end(), true) != has_border_.end()) {
+      spill_.emplace(temporary_folder);
+    }
+  }
+
+  void Run() {
+    DecodeSubtrees();
+    DecodeSeams();
+  }
+
+ private:
+  bool IsWanted(uint32_t subtree) const {
+    return std::binary_search(selection_.wanted.begin(), selection_.wanted.end(), subtree);
+  }
+
+  void DecodeSubtrees() {
+    uint64_t vertices = 0;
+    for (uint32_t s : needed_) vertices += table_.subtrees[s].vertices;
+    progress_.StartStage("decode", vertices);
+    size_t window = WindowOf(table_, needed_, memory_bytes_, runner_.threads());
+    std::vector<DecodedPart> parts(needed_.size());
+    runner_.Ordered(
+        needed_.size(), window, [&](size_t i) { parts[i] = DecodeSubtree(needed_[i]); },
+        [&](size_t i) {
+          if (IsWanted(needed_[i])) {
+            sink_.AddSubtree(needed_[i], parts[i].positions, parts[i].faces,
+                             parts[i].border_vertices);
+          }
+          parts[i] = DecodedPart();
+          progress_.Advance(table_.subtrees[needed_[i]].vertices);
+        });
+  }
+
+  DecodedPart DecodeSubtree(uint32_t subtree) {
+    progress_.ThrowIfCancelled();
+    SubtreeReader reader(container_, parameters_, subtree, has_border_[subtree]);
+    for (size_t layer = 0; layer < selection_.layers; ++layer) reader.DecodeLayer();
+    DecodedPart part;
+    part.positions = reader.state().positions();
+    reader.state().AppendFaces(&part.faces);
+    if (has_border_[subtree]) {
+      part.border_vertices = reader.state().BorderVertices();
+      SpillBorder(*spill_, subtree, reader.state().border(), {});
+    }
+    return part;
+  }
+
+  void DecodeSeams() {
+    std::vector<uint32_t> owners;
+    for (uint32_t s : selection_.wanted) {
+      if (!table_.subtrees[s].lower_neighbours.empty()) owners.push_back(s);
+    }
+    progress_.StartStage("seams", owners.size());
+    std::vector<std::vector<SeamFace>> faces(owners.size());
+    runner_.Ordered(
+        owners.size(), 4 * static_cast<size_t>(runner_.threads()),
+        [&](size_t i) { faces[i] = DecodeSeam(owners[i]); },
+        [&](size_t i) {
+          sink_.AddSeam(faces[i]);
+          faces[i] = {};
+          progress_.Advance(1);
+        });
+  }
+
+  std::vector<SeamFace> DecodeSeam(uint32_t owner) {
+    std::vector<uint32_t> members = table_.subtrees[owner].lower_neighbours;
+    members.push_back(owner);
+    std::vector<BorderFile> borders;
+    for (uint32_t member : members) borders.push_back(LoadBorder(*spill_, member));
+    std::vector<SeamCoder::Participant> participants;
+    for (size_t i = 0; i < members.size(); ++i) {
+      participants.push_back({members[i], &borders[i].record});
+    }
+    SeamReader reader(container_, parameters_, owner, participants);
+    for (size_t layer = 0; layer < selection_.layers; ++layer) reader.DecodeLayer();
+    std::vector<SeamFace> faces;
+    reader.state().AppendFaces(&faces);
+    // Corners in subtrees that were only needed for the replay have nobody to receive them.
+    std::erase_if(faces, [&](const SeamFace& face) {
+      return !std::all_of(face.begin(), face.end(),
+                          [&](const BorderRef& ref) { return IsWanted(ref.subtree); });
+    });
+    return faces;
+  }
+
+  const io::ContainerReader& container_;
+  const io::FileTable& table_;
+  const CodecParameters& parameters_;
+  const DecodeSelection& selection_;
+  std::vector<uint32_t> needed_;
+  std::vector<bool> has_border_;
+  uint64_t memory_bytes_;
+  parallel::Runner& runner_;
+  parallel::Progress& progress_;
+  MeshSink& sink_;
+  std::optional<io::SpillDirectory> spill_;
+};
+
+}  // namespace
+
+std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, const double* lo,
+                                    const double* hi) {
+  std::vector<uint32_t> found;
+  for (uint32_t s = 0; s < table.subtrees.size(); ++s) {
+    bool meets = true;
+    for (size_t i = 0; i < 3; ++i) {
+      // A representative may lie one tolerance beside its box.
+      constexpr double kSlack = 64;
+      meets &= static_cast<double>(table.subtrees[s].box_lo[i]) - kSlack <= hi[i] &&
+               static_cast<double>(table.subtrees[s].box_hi[i]) + kSlack >= lo[i];
+    }
+    if (meets) found.push_back(s);
+  }
+  return found;
+}
+
+std::vector<uint32_t> NeededSubtrees(const io::FileTable& table,
+                                     const std::vector<uint32_t>& wanted) {
+  std::vector<uint32_t> needed = wanted;
+  for (uint32_t s : wanted) {
+    const auto& lower = table.subtrees[s].lower_neighbours;
+    needed.insert(needed.end(), lower.begin(), lower.end());
+  }
+  std::sort(needed.begin(), needed.end());
+  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  return needed;
+}
+
+uint64_t BytesNeeded(const io::ContainerReader& container, const DecodeSelection& selection) {
+  const io::FileTable& table = container.table();
+  uint64_t bytes = container.table_bytes();
+  auto add = [&](const std::vector<uint32_t>& subtrees, io::SegmentPart part) {
+    for (uint32_t s : subtrees) {
+      for (size_t layer = 0; layer < selection.layers; ++layer) {
+        bytes += table.segment_bytes[table.SegmentIndex(layer, s, part)];
+      }
+    }
+  };
+  add(NeededSubtrees(table, selection.wanted), io::SegmentPart::kInner);
+  add(selection.wanted, io::SegmentPart::kSeam);
+  return bytes;
+}
+
+void DecodeInto(const io::ContainerReader& container, const CodecParameters& parameters,
+                const DecodeSelection& selection, uint64_t memory_bytes,
+                const std::string& temporary_folder, parallel::Runner& runner,
+                parallel::Progress& progress, MeshSink& sink) {
+  Pipeline(container, parameters, selection, memory_bytes, temporary_folder, runner, progress, sink)
+      .Run();
+}
+
+}  // namespace folprom

@@ -1,0 +1,50 @@
+// Decodes layers of a file in parallel and hands the parts on in a fixed order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/codec/parameters.h"
+#include "engine/codec/seam_coder.h"
+#include "engine/mesh/types.h"
+#include "io/container/reader.h"
+#include "io/spill/spill.h"
+#include "parallel/progress.h"
+#include "parallel/runner.h"
+
+namespace folprom {
+
+/// Receives the parts of a mesh one at a time: subtrees in ascending order, then seams.
+class MeshSink {
+ public:
+  virtual ~MeshSink() = default;
+  /// border_vertices[b]: vertex of border set b; by it the seams name their corners.
+  virtual void AddSubtree(uint32_t subtree, std::span<const Int3> positions,
+                          std::span<const Face> faces,
+                          std::span<const uint32_t> border_vertices) = 0;
+  virtual void AddSeam(std::span<const SeamFace> faces) = 0;
+};
+
+/// What to decode.
+struct DecodeSelection {
+  size_t layers = 0;             ///< at least 1
+  std::vector<uint32_t> wanted;  ///< subtrees to hand on, ascending; seams between them come too
+};
+
+/// Every subtree whose box meets [lo, hi] (lattice coordinates as doubles).
+std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, const double* lo, const double* hi);
+/// Subtrees that must be decoded for the seams of the wanted ones: these and their lower neighbours.
+std::vector<uint32_t> NeededSubtrees(const io::FileTable& table,
+                                     const std::vector<uint32_t>& wanted);
+/// Bytes of the file that the selection reads, the table included.
+uint64_t BytesNeeded(const io::ContainerReader& container, const DecodeSelection& selection);
+
+/// Peak memory follows `memory_bytes` and the largest subtree, not the mesh: border records wait in
+/// a spill folder below `temporary_folder`.
+void DecodeInto(const io::ContainerReader& container, const CodecParameters& parameters,
+                const DecodeSelection& selection, uint64_t memory_bytes,
+                const std::string& temporary_folder, parallel::Runner& runner,
+                parallel::Progress& progress, MeshSink& sink);
+
+}  // namespace folprom

@@ -1,0 +1,316 @@
+#include "engine/encode_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/codec/border_file.h"
+#include "io/container/writer.h"
+#include "parallel/memory_budget.h"
+
+namespace folprom {
+namespace {
+
+/// What the program itself, its libraries and the tables take.
+constexpr uint64_t kFixedBytes = uint64_t{96} << 20;
+constexpr double kLatticeLimit = 1 << 30;
+
+uint64_t WorkingBytes(uint64_t memory_bytes) {
+  return memory_bytes > 2 * kFixedBytes ? memory_bytes - kFixedBytes : memory_bytes / 2;
+}
+
+std::vector<uint32_t> SpillSegments(const io::SpillDirectory& spill, const std::string& name,
+                                    const std::vector<std::vector<uint8_t>>& segments) {
+  std::vector<uint8_t> joined;
+  std::vector<uint32_t> sizes;
+  for (const auto& segment : segments) {
+    joined.insert(joined.end(), segment.begin(), segment.end());
+    sizes.push_back(static_cast<uint32_t>(segment.size()));
+  }
+  io::WriteSpillFile(spill, name, joined);
+  return sizes;
+}
+
+std::string InnerName(size_t subtree) { return "inner." + std::to_string(subtree); }
+std::string SeamName(size_t subtree) { return "seam." + std::to_string(subtree); }
+
+/// Distance from a float or double of this size to the next.
+double StepOf(io::ScalarType type, double size) {
+  if (type == io::ScalarType::kFloat32) {
+    float value = static_cast<float>(size);
+    return static_cast<double>(std::nextafter(value, INFINITY)) - static_cast<double>(value);
+  }
+  return std::nextafter(size, static_cast<double>(INFINITY)) - size;
+}
+
+}  // namespace
+
+io::ScalarType OutputType(io::ScalarType input) {
+  switch (input) {
+    case io::ScalarType::kFloat64:
+    case io::ScalarType::kInt32:
+    case io::ScalarType::kUint32:
+      return io::ScalarType::kFloat64;
+    default:
+      return io::ScalarType::kFloat32;
+  }
+}
+
+Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, uint32_t bits,
+                        double tolerance) {
+  Resolution result;
+  if (bounds.empty()) return result;
+  double longest = bounds.longest();
+  double steps = static_cast<double>((uint64_t{1} << bits) - 1);
+  result.tolerance = tolerance > 0 ? tolerance : longest / steps / 2;
+  result.lattice.origin = bounds.lo;
+  if (!(longest > 0)) return result;
+  // Writing to float or double rounds once more: half a step of the output. Below that half the
+  // tolerance is always enough, since a vertex nearer than half a step rounds to its own value.
+  double largest = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    largest = std::max({largest, std::fabs(bounds.lo[i]), std::fabs(bounds.hi[i])});
+  }
+  double inner = std::max(result.tolerance - StepOf(OutputType(type), largest) / 2,
+                          result.tolerance / 2);
+  result.lattice.unit = inner / kUnitsPerTolerance;
+  if (!(longest / result.lattice.unit < kLatticeLimit - 2)) {
+    throw Failure(ErrorKind::kUsage,
+                  "tolerance " + std::to_string(result.tolerance) +
+                      " is too fine: the longest side of the box may span 2^24 steps of it");
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    double side = (bounds.hi[i] - bounds.lo[i]) / result.lattice.unit;
+    result.lattice.extent[i] = static_cast<int32_t>(std::ceil(side));
+  }
+  return result;
+}
+
+EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
+                     parallel::Runner& runner, parallel::Progress& progress)
+    : options_(options), runner_(runner), progress_(progress) {
+  CheckSettings(options.codec).value();
+  source_ = io::MeshSource::Open(input).value();
+  spill_ = std::make_unique<io::SpillDirectory>(options.temporary_folder);
+}
+
+void EncodeJob::MeasureScan() {
+  Bounds bounds = MeasureBounds(*source_, runner_, progress_);
+  resolution_ =
+      ResolutionOf(bounds, source_->coordinate_type(), options_.bits, options_.tolerance);
+}
+
+void EncodeJob::Partition() {
+  PartitionSettings settings;
+  settings.subtree_vertices = options_.codec.subtree_vertices;
+  settings.metric_a = options_.codec.metric_a;
+  settings.metric_b = options_.codec.metric_b;
+  settings.normal_metric = options_.codec.normal_metric;
+  if (source_->vertex_count() > 0) {
+    scan_ = PartitionScan(*source_, resolution_.lattice, settings,
+                          WorkingBytes(options_.memory_bytes), runner_, *spill_, progress_);
+  }
+  source_->DropResident();
+  outcomes_.resize(scan_ ? scan_->subtree_count() : 0);
+  const auto& extent = resolution_.lattice.extent;
+  parameters_.settings = options_.codec;
+  parameters_.extent = {extent[0], extent[1], extent[2]};
+  uint32_t per_octave = options_.codec.layers_per_octave;
+  parameters_.schedule = LayerSchedule(parameters_.extent, per_octave,
+                                       options_.codec.rounds_per_layer,
+                                       MostSplitLayers(parameters_.extent, per_octave),
+                                       MostRefineLayers(parameters_.extent, per_octave));
+}
+
+void EncodeJob::EncodeSubtrees(bool keep_order) {
+  // The largest first: the last tasks to end are then small. Results do not depend on it.
+  std::vector<size_t> order(outcomes_.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return scan_->summary(a).vertices > scan_->summary(b).vertices;
+  });
+  progress_.StartStage("encode", source_->vertex_count());
+  parallel::MemoryBudget budget(WorkingBytes(options_.memory_bytes) * 3 / 4);
+  runner_.ForEach(order.size(), [&](size_t i) {
+    size_t subtree = order[i];
+    const SubtreeSummary& summary = scan_->summary(subtree);
+    progress_.ThrowIfCancelled();
+    auto lease = budget.Acquire(EncodeSubtreeBytes(summary));
+    SubtreeChunk chunk = scan_->Load(subtree);
+    EncodedSubtree encoded =
+        EncodeSubtree(chunk, summary, static_cast<uint32_t>(subtree), parameters_);
+    Outcome& outcome = outcomes_[subtree];
+    outcome.inner_bytes = SpillSegments(*spill_, InnerName(subtree), encoded.segments);
+    outcome.seam_bytes.assign(outcome.inner_bytes.size(), 0);
+    outcome.distance = std::move(encoded.distance);
+    outcome.vertices = std::move(encoded.vertices);
+    outcome.faces = std::move(encoded.faces);
+    outcome.active = std::move(encoded.active);
+    outcome.digest = encoded.digest;
+    outcome.meters = encoded.meters;
+    if (!summary.neighbours.empty()) {
+      SpillBorder(*spill_, static_cast<uint32_t>(subtree), encoded.border, encoded.border_vertices);
+    }
+    if (keep_order) {
+      auto bytes = std::as_bytes(std::span(encoded.final_vertices));
+      io::WriteSpillFile(*spill_, "order." + std::to_string(subtree),
+                         {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+    }
+    progress_.Advance(summary.vertices);
+  });
+}
+
+std::vector<uint32_t> EncodeJob::SeamMembers(size_t owner) const {
+  std::vector<uint32_t> members;
+  for (uint32_t neighbour : scan_->summary(owner).neighbours) {
+    if (neighbour < owner) members.push_back(neighbour);
+  }
+  return members;
+}
+
+void EncodeJob::EncodeSeams() {
+  progress_.StartStage("seams", outcomes_.size());
+  runner_.ForEach(outcomes_.size(), [&](size_t owner) {
+    std::vector<uint32_t> members = SeamMembers(owner);
+    if (!members.empty()) {
+      members.push_back(static_cast<uint32_t>(owner));
+      std::vector<BorderFile> borders;
+      for (uint32_t member : members) borders.push_back(LoadBorder(*spill_, member));
+      SubtreeChunk chunk = scan_->Load(owner);
+      EncodedSeam seam = EncodeSeam(members, borders, chunk.cross_faces, parameters_);
+      Outcome& outcome = outcomes_[owner];
+      outcome.seam_bytes = SpillSegments(*spill_, SeamName(owner), seam.segments);
+      outcome.digest.faces += seam.digest.faces;
+      outcome.meters.seams += seam.meter;
+      for (size_t layer = 0; layer < seam.faces.size(); ++layer) {
+        outcome.faces[layer] += seam.faces[layer];
+        if (seam.active[layer]) outcome.active[layer] = true;
+      }
+    }
+    progress_.Advance(1);
+  });
+}
+
+void EncodeJob::DropEmptyLayers() {
+  // A layer in which no subtree codes anything can go where the schedule does not count on it: the
+  // last split layers but one, and the first refinements.
+  uint32_t split = parameters_.schedule.split_layers(), all = parameters_.schedule.layers();
+  auto active = [&](uint32_t layer) {
+    return std::any_of(outcomes_.begin(), outcomes_.end(),
+                       [&](const Outcome& outcome) { return outcome.active[layer]; });
+  };
+  uint32_t kept_split = split - 1;
+  while (kept_split > 0 && !active(kept_split - 1)) --kept_split;
+  uint32_t first_refine = split;
+  while (first_refine < all && !active(first_refine)) ++first_refine;
+  kept_layers_.clear();
+  for (uint32_t layer = 0; layer < kept_split; ++layer) kept_layers_.push_back(layer);
+  kept_layers_.push_back(split - 1);
+  for (uint32_t layer = first_refine; layer < all; ++layer) kept_layers_.push_back(layer);
+  parameters_.schedule = LayerSchedule(parameters_.extent, options_.codec.layers_per_octave,
+                                       options_.codec.rounds_per_layer, kept_split + 1,
+                                       all - first_refine);
+}
+
+io::FileTable EncodeJob::MakeTable() {
+  DropEmptyLayers();
+  io::FileTable table;
+  table.vertices = source_->vertex_count();
+  table.faces = source_->triangle_count();
+  table.coordinate_type = static_cast<uint8_t>(OutputType(source_->coordinate_type()));
+  table.origin = resolution_.lattice.origin;
+  table.unit = resolution_.lattice.unit;
+  table.extent = resolution_.lattice.extent;
+  table.tolerance = resolution_.tolerance;
+  table.codec = WriteParameters(parameters_);
+  CostMeters costs;
+  for (size_t s = 0; s < outcomes_.size(); ++s) {
+    const Outcome& outcome = outcomes_[s];
+    const SubtreeSummary& summary = scan_->summary(s);
+    io::SubtreeRecord record;
+    record.vertices = summary.vertices;
+    record.box_lo = {summary.box_lo.x, summary.box_lo.y, summary.box_lo.z};
+    record.box_hi = {summary.box_hi.x, summary.box_hi.y, summary.box_hi.z};
+    record.lower_neighbours = SeamMembers(s);
+    table.subtrees.push_back(std::move(record));
+    table.digest.vertices += outcome.digest.vertices;
+    table.digest.faces += outcome.digest.faces;
+    costs.split += outcome.meters.split;
+    costs.offsets += outcome.meters.offsets;
+    costs.refinement += outcome.meters.refinement;
+    costs.connectivity += outcome.meters.connectivity;
+    costs.exceptions += outcome.meters.exceptions;
+    costs.seams += outcome.meters.seams;
+  }
+  table.kind_bits = {costs.split / 1024,        costs.offsets / 1024,    costs.refinement / 1024,
+                     costs.connectivity / 1024, costs.exceptions / 1024, costs.seams / 1024};
+  for (uint32_t layer : kept_layers_) {
+    io::LayerRecord record;
+    double distance = 0;
+    for (const Outcome& outcome : outcomes_) {
+      distance = std::max(distance, outcome.distance[layer]);
+      record.vertices += outcome.vertices[layer];
+      record.faces += outcome.faces[layer];
+      table.segment_bytes.push_back(outcome.inner_bytes[layer]);
+      table.segment_bytes.push_back(outcome.seam_bytes[layer]);
+    }
+    // Up to the next float, and half a lattice unit per axis for the rounding of the original.
+    double bound = outcomes_.empty() ? 0 : (distance + 1) * resolution_.lattice.unit;
+    record.error_bound = std::nextafter(static_cast<float>(bound), INFINITY);
+    table.layers.push_back(record);
+  }
+  return table;
+}
+
+uint64_t EncodeJob::WriteFile(const io::FileTable& table, io::AtomicFile& out) {
+  // Positions of the kept layers inside the spilled segments of a subtree.
+  auto begins = [](const std::vector<uint32_t>& sizes) {
+    std::vector<uint64_t> begin(1, 0);
+    for (uint32_t size : sizes) begin.push_back(begin.back() + size);
+    return begin;
+  };
+  progress_.StartStage("write", table.layers.size());
+  io::MappedFile mapped;
+  size_t last_layer = 0;
+  return io::WriteContainer(
+      table,
+      [&](size_t layer, size_t subtree, io::SegmentPart part) -> std::span<const uint8_t> {
+        if (layer != last_layer) progress_.Advance(layer - last_layer);
+        last_layer = layer;
+        bool inner = part == io::SegmentPart::kInner;
+        const Outcome& outcome = outcomes_[subtree];
+        const auto& sizes = inner ? outcome.inner_bytes : outcome.seam_bytes;
+        uint32_t stored = kept_layers_[layer];
+        if (sizes[stored] == 0) return {};
+        std::string name = inner ? InnerName(subtree) : SeamName(subtree);
+        mapped = io::MappedFile::Open(spill_->File(name)).value();
+        return mapped.bytes().subspan(begins(sizes)[stored], sizes[stored]);
+      },
+      out);
+}
+
+std::vector<std::string> EncodeJob::Warnings() const {
+  std::vector<std::string> warnings;
+  const io::SourceNotes& notes = source_->notes();
+  auto count = [](uint64_t n, const char* one, const char* many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+  };
+  if (notes.polygons_triangulated > 0) {
+    warnings.push_back(count(notes.polygons_triangulated, "polygon", "polygons") +
+                       " cut into triangles");
+  }
+  if (notes.polygons_dropped > 0) {
+    warnings.push_back(count(notes.polygons_dropped, "face", "faces") +
+                       " of fewer than three corners dropped");
+  }
+  if (!notes.ignored_properties.empty()) {
+    std::string names;
+    for (const std::string& name : notes.ignored_properties) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    warnings.push_back("properties not kept: " + names);
+  }
+  return warnings;
+}
+
+}  // namespace folprom

@@ -1,0 +1,79 @@
+// The stages of an encoding as one object per job; encode.cpp and verify.cpp call them in order.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/codec/encode_subtree.h"
+#include "engine/codec/parameters.h"
+#include "engine/mesh/lattice.h"
+#include "engine/partition/partition.h"
+#include "folprom/folprom.h"
+#include "io/container/file_table.h"
+#include "io/files/atomic_file.h"
+#include "io/formats/mesh_source.h"
+#include "io/spill/spill.h"
+#include "parallel/progress.h"
+#include "parallel/runner.h"
+
+namespace folprom {
+
+/// Lattice and tolerance of a scan. Throws Failure kUsage where the tolerance is finer than the
+/// lattice can be.
+struct Resolution {
+  Lattice lattice;
+  double tolerance = 0;  ///< asked for, model units per axis
+};
+Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, uint32_t bits, double tolerance);
+
+/// Type in which decoded coordinates are written.
+io::ScalarType OutputType(io::ScalarType input);
+
+class EncodeJob {
+ public:
+  EncodeJob(const std::string& input, const EncodeOptions& options, parallel::Runner& runner,
+            parallel::Progress& progress);
+
+  void MeasureScan();
+  /// The lattice of an existing file instead of the scan's own (verify).
+  void UseResolution(const Resolution& resolution) { resolution_ = resolution; }
+  void Partition();
+  /// keep_order: spill the final index of each vertex as "order.<subtree>".
+  void EncodeSubtrees(bool keep_order);
+  void EncodeSeams();
+  io::FileTable MakeTable();
+  uint64_t WriteFile(const io::FileTable& table, io::AtomicFile& out);
+
+  const io::MeshSource& source() const { return *source_; }
+  const PartitionedScan& scan() const { return *scan_; }
+  const io::SpillDirectory& spill() const { return *spill_; }
+  std::vector<std::string> Warnings() const;
+
+ private:
+  /// What stays in memory of a subtree and its seam once their bits are spilled.
+  struct Outcome {
+    std::vector<uint32_t> inner_bytes, seam_bytes;  ///< per layer
+    std::vector<double> distance;
+    std::vector<uint32_t> vertices;
+    std::vector<uint64_t> faces;
+    std::vector<bool> active;
+    io::MeshDigest digest;
+    CostMeters meters;
+  };
+  void DropEmptyLayers();
+  std::vector<uint32_t> SeamMembers(size_t owner) const;
+
+  EncodeOptions options_;
+  parallel::Runner& runner_;
+  parallel::Progress& progress_;
+  std::unique_ptr<io::MeshSource> source_;
+  std::unique_ptr<io::SpillDirectory> spill_;
+  Resolution resolution_;
+  CodecParameters parameters_;
+  std::unique_ptr<PartitionedScan> scan_;
+  std::vector<Outcome> outcomes_;
+  std::vector<uint32_t> kept_layers_;
+};
+
+}  // namespace folprom

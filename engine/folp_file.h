@@ -1,0 +1,40 @@
+// A .folp file on disk, mapped and opened.
+#pragma once
+
+#include <string>
+
+#include "engine/codec/layer_reader.h"
+#include "engine/mesh/lattice.h"
+#include "io/container/reader.h"
+#include "io/files/mapped_file.h"
+
+namespace folprom {
+
+/// Throws Failure; messages of a damaged table name the file.
+class FolpFile {
+ public:
+  explicit FolpFile(const std::string& path)
+      : file_(io::MappedFile::Open(path).value()),
+        container_(io::ContainerReader::Open(file_.bytes(), path).value()),
+        parameters_(Parameters(path)) {}
+
+  const io::ContainerReader& container() const { return container_; }
+  const io::FileTable& table() const { return container_.table(); }
+  const CodecParameters& parameters() const { return parameters_; }
+  uint64_t bytes_present() const { return file_.bytes().size(); }
+  Lattice lattice() const { return {table().origin, table().unit, table().extent}; }
+
+ private:
+  CodecParameters Parameters(const std::string& path) const {
+    try {
+      return ParametersOf(table());
+    } catch (const Failure& failure) {
+      throw Failure(failure.error().kind, path + ": " + failure.error().message);
+    }
+  }
+  io::MappedFile file_;
+  io::ContainerReader container_;
+  CodecParameters parameters_;
+};
+
+}  // namespace folprom

@@ -1,0 +1,168 @@
+#include "engine/geometry/offset_coder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/entropy/bit_coder.h"
+#include "engine/entropy/fixed_math.h"
+
+namespace folprom {
+namespace {
+
+constexpr uint32_t kMostChildren = 8;
+constexpr uint32_t kSizeBuckets = 8;
+constexpr uint32_t kSpacingBuckets = 128;
+
+uint32_t SizeBucket(uint64_t value) {
+  uint32_t width = static_cast<uint32_t>(std::bit_width(value));
+  return width < kSizeBuckets ? width : kSizeBuckets - 1;
+}
+
+/// Height range over distance range: 0 flat .. 5 steep.
+uint32_t SteepnessBucket(const Neighbourhood& at) {
+  double ratio = at.range_rho > 0 ? at.range_z / at.range_rho : 1;
+  constexpr double kBounds[5] = {0.05, 0.12, 0.25, 0.5, 1.0};
+  uint32_t bucket = 0;
+  while (bucket < 5 && ratio >= kBounds[bucket]) ++bucket;
+  return bucket;
+}
+
+/// Mean neighbour height in steps: 0 far below .. 6 far above.
+uint32_t HollowBucket(const Neighbourhood& at, double step) {
+  double ratio = step > 0 ? at.mean_z / step : 0;
+  constexpr double kBounds[6] = {-8, -4, -1.5, 1.5, 4, 8};
+  uint32_t bucket = 0;
+  while (bucket < 6 && ratio >= kBounds[bucket]) ++bucket;
+  return bucket;
+}
+
+/// Nearest integer of a value that may be anything, kept where 30 bits hold it.
+int32_t RoundToInt(double value) {
+  double rounded = std::floor(value + 0.5);
+  constexpr double kLimit = 1 << 30;
+  if (!(rounded > -kLimit)) return -(1 << 30);
+  return rounded < kLimit ? static_cast<int32_t>(rounded) : 1 << 30;
+}
+
+}  // namespace
+
+OffsetCoder::OffsetCoder(const OffsetSettings& settings)
+    : settings_(settings),
+      is_leaf_({kSpacingBuckets, 4 * 4 * 16}),
+      is_full_({kSpacingBuckets, 4 * 4}),
+      fewer_({kMostChildren}),
+      first_theta_({kMostChildren + 1, 8}),
+      theta_({(kMostChildren + 1) * kMostChildren, kSizeBuckets * kMostChildren}),
+      rho_({(kMostChildren + 1) * kMostChildren, kSizeBuckets * 6}),
+      z_({7 * 2 * kMostChildren, kSizeBuckets * 6}),
+      half_({3 * 16}) {}
+
+OffsetSteps OffsetCoder::StepsFor(const Neighbourhood& at, double least) const {
+  double levels = settings_.levels;
+  OffsetSteps steps;
+  steps.theta = 2 * kPi / levels;
+  double rho = at.range_rho / levels, z = at.range_z / levels;
+  if (!settings_.adaptive) rho = z = std::max(rho, z);
+  steps.rho = std::max(rho, least);
+  steps.z = std::max(z, least);
+  return steps;
+}
+
+OffsetIndex OffsetCoder::Quantise(const Neighbourhood& at, const OffsetSteps& steps,
+                                  const Int3& point) const {
+  CylinderPoint local = ToCylinder(at.frame, point);
+  OffsetIndex index;
+  uint32_t theta = static_cast<uint32_t>(RoundToInt(local.theta / steps.theta));
+  index.theta = theta >= settings_.levels ? 0 : theta;
+  index.rho = static_cast<uint32_t>(RoundToInt(std::floor(local.rho / steps.rho)));
+  index.z = RoundToInt(local.z / steps.z);
+  return index;
+}
+
+CylinderCell OffsetCoder::CellOf(const Neighbourhood& at, const OffsetSteps& steps,
+                                 const OffsetIndex& index) const {
+  CylinderCell cell;
+  cell.frame = at.frame;
+  cell.centre = {(static_cast<double>(index.rho) + 0.5) * steps.rho,
+                 static_cast<double>(index.theta) * steps.theta,
+                 static_cast<double>(index.z) * steps.z};
+  cell.width = {steps.rho, steps.theta, steps.z};
+  return cell;
+}
+
+template <class Coder>
+uint32_t OffsetCoder::CodeChildCount(Coder& coder, const SetContext& context, uint32_t count) {
+  double squared = context.spacing * context.spacing;
+  int bucket = HalfOctave(static_cast<uint64_t>(std::min(squared, 9e18)));
+  uint32_t spacing =
+      static_cast<uint32_t>(std::clamp(bucket, 0, static_cast<int>(kSpacingBuckets) - 1));
+  uint32_t around = std::min(context.leaf_neighbours, 3u) * 4 + std::min(context.other_neighbours, 3u);
+  if (is_leaf_.Code(coder, {spacing, around * 16 + std::min(spacing / 8, 15u)}, 0, count == 1)) {
+    return 1;
+  }
+  uint32_t most = settings_.children;
+  if (most == 2 || is_full_.Code(coder, {spacing, around}, 0, count == most)) return most;
+  // m < K: the set holds m vertices; the larger the rarer.
+  for (uint32_t smaller = 2; smaller < most - 1; ++smaller) {
+    if (!fewer_.Code(coder, {smaller}, 0, count > smaller)) return smaller;
+  }
+  return most - 1;
+}
+
+template <class Coder>
+void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const OffsetSteps& steps,
+                              uint32_t count, std::vector<OffsetIndex>* offsets) {
+  offsets->resize(count);
+  uint32_t steep = SteepnessBucket(at), hollow = HollowBucket(at, steps.z);
+  uint32_t rho_before = 0, z_before = 0;
+  uint32_t levels = settings_.levels;
+  // Without the prediction heights count from the lowest neighbour instead of the parent.
+  int32_t base = settings_.predict_height ? 0 : RoundToInt(at.min_z / steps.z);
+  for (uint32_t i = 0; i < count; ++i) {
+    OffsetIndex& index = (*offsets)[i];
+    uint32_t place = count * kMostChildren + i;
+    if (i == 0 || !settings_.predict_theta) {
+      index.theta = first_theta_.CodeUnsigned(coder, {count, std::min(i, 7u)}, index.theta);
+    } else {
+      // The angles still to come are spread evenly over what is left of the turn.
+      int32_t before = static_cast<int32_t>((*offsets)[i - 1].theta);
+      int32_t left = static_cast<int32_t>(levels + (*offsets)[0].theta) - before;
+      int32_t predicted = std::min(before + left / static_cast<int32_t>(count - i + 1),
+                                   static_cast<int32_t>(levels) - 1);
+      int32_t residual = theta_.CodeSigned(
+          coder, {place, SizeBucket(rho_before) * kMostChildren + i},
+          static_cast<int32_t>(index.theta) - predicted);
+      index.theta = static_cast<uint32_t>(std::clamp<int64_t>(
+          int64_t{predicted} + residual, 0, static_cast<int64_t>(levels) - 1));
+    }
+    if (index.theta >= levels) throw Failure(ErrorKind::kCorrupt, "coded angle out of range");
+    index.rho = rho_.CodeUnsigned(coder, {place, SizeBucket(rho_before) * 6 + steep}, index.rho);
+    rho_before = index.rho;
+    int32_t height = z_.CodeSigned(
+        coder, {(hollow * 2 + (i > 0 ? 1 : 0)) * kMostChildren + i, SizeBucket(z_before) * 6 + steep},
+        index.z - base);
+    index.z = RoundToInt(static_cast<double>(height) + base);
+    z_before = static_cast<uint32_t>(index.z < 0 ? -index.z : index.z);
+  }
+}
+
+template <class Coder>
+bool OffsetCoder::CodeHalf(Coder& coder, const CylinderCell& cell, CylinderCell::Dimension dimension,
+                           bool upper) {
+  // Near the axis the outer half of a ring is larger: how many widths out is worth a context.
+  double rings = cell.width.rho > 0 ? cell.centre.rho / cell.width.rho : 0;
+  uint32_t ring = static_cast<uint32_t>(std::min(rings, 15.0));
+  return half_.Code(coder, {static_cast<uint32_t>(dimension) * 16 + ring}, 0, upper);
+}
+
+#define FOLPROM_INSTANTIATE(Coder)                                                                \
+  template uint32_t OffsetCoder::CodeChildCount<Coder>(Coder&, const SetContext&, uint32_t);      \
+  template void OffsetCoder::CodeOffsets<Coder>(Coder&, const Neighbourhood&, const OffsetSteps&, \
+                                                uint32_t, std::vector<OffsetIndex>*);             \
+  template bool OffsetCoder::CodeHalf<Coder>(Coder&, const CylinderCell&,                         \
+                                             CylinderCell::Dimension, bool);
+FOLPROM_INSTANTIATE(BitEncoder)
+FOLPROM_INSTANTIATE(BitDecoder)
+#undef FOLPROM_INSTANTIATE
+
+}  // namespace folprom

@@ -1,0 +1,79 @@
+// Codes how many children a vertex set has and where they lie (sections 2.2, 2.3), and the halving
+// of cells (section 2.4).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/entropy/integer_model.h"
+#include "engine/entropy/mixed_model.h"
+#include "engine/geometry/cylinder_cell.h"
+#include "engine/geometry/local_frame.h"
+
+namespace folprom {
+
+/// Which of the paper's techniques are on, and its constants.
+struct OffsetSettings {
+  uint32_t children = 4;
+  uint32_t levels = 32;
+  bool adaptive = true;
+  bool predict_theta = true;
+  bool predict_height = true;
+};
+
+/// Offset of one child in steps of its dimension.
+struct OffsetIndex {
+  uint32_t theta = 0;  ///< below Q
+  uint32_t rho = 0;
+  int32_t z = 0;
+};
+
+/// Steps of one split: G_rho, G_theta, G_z of section 2.2.
+struct OffsetSteps {
+  double rho = 1, theta = 1, z = 1;
+};
+
+/// Learning state of the geometry decisions, kept from layer to layer.
+class OffsetCoder {
+ public:
+  explicit OffsetCoder(const OffsetSettings& settings);
+
+  /// Steps from the neighbours' ranges, not below `least` lattice units.
+  OffsetSteps StepsFor(const Neighbourhood& at, double least) const;
+  OffsetIndex Quantise(const Neighbourhood& at, const OffsetSteps& steps, const Int3& point) const;
+  CylinderCell CellOf(const Neighbourhood& at, const OffsetSteps& steps,
+                      const OffsetIndex& index) const;
+
+  /// What both sides know about a set before it is split.
+  struct SetContext {
+    double spacing = 0;  ///< mean distance to the neighbours, lattice units
+    uint32_t leaf_neighbours = 0;
+    uint32_t other_neighbours = 0;
+  };
+  /// Number of children, 1 .. K (1: the set is a single vertex).
+  template <class Coder>
+  uint32_t CodeChildCount(Coder& coder, const SetContext& context, uint32_t count);
+
+  /// Offsets in the lexicographic order of (theta, rho, z); resized to `count`.
+  template <class Coder>
+  void CodeOffsets(Coder& coder, const Neighbourhood& at, const OffsetSteps& steps, uint32_t count,
+                   std::vector<OffsetIndex>* offsets);
+
+  /// Which half of the cell holds the vertex.
+  template <class Coder>
+  bool CodeHalf(Coder& coder, const CylinderCell& cell, CylinderCell::Dimension dimension,
+                bool upper);
+
+ private:
+  OffsetSettings settings_;
+  MixedModel<2> is_leaf_;
+  MixedModel<2> is_full_;
+  MixedModel<1> fewer_;
+  IntegerModel<2> first_theta_;
+  IntegerModel<2> theta_;
+  IntegerModel<2> rho_;
+  IntegerModel<2> z_;
+  MixedModel<1> half_;
+};
+
+}  // namespace folprom

@@ -1,0 +1,280 @@
+#include "engine/hierarchy/lloyd_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/entropy/fixed_math.h"
+
+namespace folprom {
+
+namespace {
+constexpr uint32_t kMostChildren = 8;
+/// Sets this deep come from vertices crowded beyond reason; they are halved instead.
+constexpr uint32_t kDeepest = 48;
+/// The coordinate range for which the paper gives a = 1, b = 8.
+constexpr double kPaperRange = 4096;
+}  // namespace
+
+/// Builds one tree. Points are copied into the order of the tree, so that every pass is contiguous.
+class LloydBuilder {
+ public:
+  LloydBuilder(std::span<const Int3> positions, const SurfaceAttributes& surface,
+               double longest_side, const CodecSettings& settings)
+      : settings_(settings), scale_(longest_side > 0 ? kPaperRange / longest_side : 1) {
+    points_.reserve(positions.size());
+    tree_.order_.reserve(positions.size());
+    for (uint32_t i = 0; i < positions.size(); ++i) {
+      const Int3& p = positions[i];
+      points_.push_back({{scale_ * p.x, scale_ * p.y, scale_ * p.z},
+                         surface.normals[i], surface.curvature[i]});
+      tree_.order_.push_back(i);
+    }
+    scratch_points_.resize(points_.size());
+    scratch_order_.resize(points_.size());
+    cluster_.resize(points_.size());
+    distance_.resize(points_.size());
+    positions_ = positions;
+  }
+
+  SetTree Build() {
+    tree_.nodes_.reserve(points_.size() + points_.size() / 2);
+    tree_.nodes_.push_back({0, static_cast<uint32_t>(points_.size()), 0, 0, {}});
+    std::vector<std::pair<uint32_t, uint32_t>> pending{{0, 0}};  // node, depth
+    while (!pending.empty()) {
+      auto [index, depth] = pending.back();
+      pending.pop_back();
+      tree_.nodes_[index].representative = Representative(index);
+      uint32_t first = SplitNode(index, depth);
+      for (uint32_t i = tree_.nodes_[index].child_count; i-- > 0;) {
+        pending.push_back({first + i, depth + 1});
+      }
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  struct Point {
+    Vector3 position;  ///< paper units
+    Vector3 normal;
+    double curvature;
+  };
+  struct Centre {
+    Vector3 position, normal;
+  };
+
+  static double Length(const Vector3& a, const Vector3& b) {
+    Vector3 d{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return std::sqrt(Dot(d, d));
+  }
+  double Distance(const Point& point, const Centre& centre) const {
+    double euclidean = Length(point.position, centre.position);
+    if (normal_weight_ == 0) return euclidean;
+    return normal_weight_ * Length(point.normal, centre.normal) + (1 - normal_weight_) * euclidean;
+  }
+
+  Centre MeanOf(uint32_t begin, uint32_t end) const {
+    Centre mean{{0, 0, 0}, {0, 0, 0}};
+    for (uint32_t i = begin; i < end; ++i) AddTo(&mean, points_[i]);
+    return Normalised(mean, end - begin);
+  }
+  static void AddTo(Centre* sum, const Point& point) {
+    for (size_t k = 0; k < 3; ++k) {
+      sum->position[k] = sum->position[k] + point.position[k];
+      sum->normal[k] = sum->normal[k] + point.normal[k];
+    }
+  }
+  static Centre Normalised(Centre sum, uint32_t count) {
+    double length = std::sqrt(Dot(sum.normal, sum.normal));
+    for (size_t k = 0; k < 3; ++k) {
+      sum.position[k] = sum.position[k] / count;
+      sum.normal[k] = length > 0 ? sum.normal[k] / length : 0;
+    }
+    return sum;
+  }
+
+  /// w_n = 1 - a (1 - ave(d_n)/2)^b.
+  double NormalWeight(uint32_t begin, uint32_t end, const Centre& mean) const {
+    if (!settings_.normal_metric) return 0;
+    double sum = 0;
+    for (uint32_t i = begin; i < end; ++i) sum = sum + Length(points_[i].normal, mean.normal);
+    double base = 1 - sum / (end - begin) / 2;
+    if (!(base > 0)) return 1;
+    double power = ExpExact(std::max(settings_.metric_b * Log2Exact(base) * 0.6931471805599453, -39.0));
+    return std::clamp(1 - settings_.metric_a * power, 0.0, 1.0);
+  }
+
+  Int3 Representative(uint32_t index) const {
+    const SetTree::Node& node = tree_.nodes_[index];
+    uint32_t count = node.end - node.begin;
+    if (count == 1) return positions_[tree_.order_[node.begin]];
+    int64_t sum[3] = {0, 0, 0};
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      const Int3& p = positions_[tree_.order_[i]];
+      sum[0] += p.x;
+      sum[1] += p.y;
+      sum[2] += p.z;
+    }
+    auto centre = [&](int axis) {
+      return static_cast<int32_t>((sum[axis] + count / 2) / count);
+    };
+    Int3 middle{centre(0), centre(1), centre(2)};
+    if (settings_.representative == Representative::kCentre) return middle;
+    uint32_t chosen = CurvedVertex(node);
+    return chosen == node.end ? middle : positions_[tree_.order_[chosen]];
+  }
+
+  /// Place of the vertex of highest priority p_i, node.end where curvature hardly varies.
+  uint32_t CurvedVertex(const SetTree::Node& node) const {
+    double count = node.end - node.begin, sum = 0, squares = 0;
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      sum = sum + points_[i].curvature;
+      squares = squares + points_[i].curvature * points_[i].curvature;
+    }
+    double variance = squares / count - (sum / count) * (sum / count);
+    double threshold = settings_.curvature_threshold;
+    if (!(variance > threshold * threshold)) return node.end;
+    Centre mean = MeanOf(node.begin, node.end);
+    double distances = 0;
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      distances = distances + Length(points_[i].position, mean.position);
+    }
+    double sigma = settings_.gaussian_ratio * distances / count;
+    uint32_t best = node.end;
+    double highest = -1;
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      double distance = Length(points_[i].position, mean.position);
+      double exponent = sigma > 0 ? -distance * distance / (2 * sigma * sigma) : 0;
+      double priority = points_[i].curvature * ExpExact(std::max(exponent, -39.0));
+      if (priority > highest) {
+        highest = priority;
+        best = i;
+      }
+    }
+    return best;
+  }
+
+  /// Makes the children of a node; returns the first.
+  uint32_t SplitNode(uint32_t index, uint32_t depth) {
+    uint32_t begin = tree_.nodes_[index].begin, end = tree_.nodes_[index].end;
+    uint32_t count = end - begin, first = static_cast<uint32_t>(tree_.nodes_.size());
+    if (count == 1) return first;
+    uint32_t children = std::min(count, settings_.children);
+    std::array<uint32_t, kMostChildren + 1> bounds{};
+    if (count <= settings_.children) {
+      for (uint32_t i = 0; i <= children; ++i) bounds[i] = begin + i;
+    } else if (depth >= kDeepest || !Cluster(begin, end, children)) {
+      for (uint32_t i = 0; i <= children; ++i) {
+        bounds[i] = begin + static_cast<uint32_t>(uint64_t{count} * i / children);
+      }
+    } else {
+      Reorder(begin, end, children, &bounds);
+    }
+    tree_.nodes_[index].first_child = first;
+    tree_.nodes_[index].child_count = children;
+    for (uint32_t i = 0; i < children; ++i) tree_.nodes_.push_back({bounds[i], bounds[i + 1], 0, 0, {}});
+    return first;
+  }
+
+  /// Assigns cluster_[begin, end). False when some cluster stays empty (coincident vertices).
+  bool Cluster(uint32_t begin, uint32_t end, uint32_t children) {
+    Centre mean = MeanOf(begin, end);
+    normal_weight_ = NormalWeight(begin, end, mean);
+    std::array<Centre, kMostChildren> centres{};
+    Seed(begin, end, children, mean, &centres);
+    double before = 0;
+    for (uint32_t iteration = 0; iteration < settings_.lloyd_iterations; ++iteration) {
+      double distortion = Assign(begin, end, children, centres);
+      if (iteration > 0 && before - distortion <= settings_.lloyd_threshold * before) break;
+      before = distortion;
+      Update(begin, end, children, &centres);
+    }
+    std::array<uint32_t, kMostChildren> sizes{};
+    for (uint32_t i = begin; i < end; ++i) ++sizes[cluster_[i]];
+    return std::all_of(sizes.begin(), sizes.begin() + children, [](uint32_t n) { return n > 0; });
+  }
+
+  /// Farthest point first, from the mean.
+  void Seed(uint32_t begin, uint32_t end, uint32_t children, const Centre& mean,
+            std::array<Centre, kMostChildren>* centres) {
+    Centre last = mean;
+    for (uint32_t c = 0; c < children; ++c) {
+      uint32_t farthest = begin;
+      for (uint32_t i = begin; i < end; ++i) {
+        double distance = Distance(points_[i], last);
+        // The mean itself is no centre: its distances count for the first choice only.
+        if (c <= 1 || distance < distance_[i]) distance_[i] = distance;
+        if (distance_[i] > distance_[farthest]) farthest = i;
+      }
+      (*centres)[c] = {points_[farthest].position, points_[farthest].normal};
+      last = (*centres)[c];
+    }
+  }
+
+  double Assign(uint32_t begin, uint32_t end, uint32_t children,
+                const std::array<Centre, kMostChildren>& centres) {
+    double distortion = 0;
+    for (uint32_t i = begin; i < end; ++i) {
+      double nearest = Distance(points_[i], centres[0]);
+      uint8_t chosen = 0;
+      for (uint32_t c = 1; c < children; ++c) {
+        double distance = Distance(points_[i], centres[c]);
+        if (distance < nearest) {
+          nearest = distance;
+          chosen = static_cast<uint8_t>(c);
+        }
+      }
+      cluster_[i] = chosen;
+      distortion = distortion + nearest;
+    }
+    return distortion;
+  }
+
+  void Update(uint32_t begin, uint32_t end, uint32_t children,
+              std::array<Centre, kMostChildren>* centres) const {
+    std::array<Centre, kMostChildren> sums{};
+    std::array<uint32_t, kMostChildren> sizes{};
+    for (uint32_t i = begin; i < end; ++i) {
+      AddTo(&sums[cluster_[i]], points_[i]);
+      ++sizes[cluster_[i]];
+    }
+    for (uint32_t c = 0; c < children; ++c) {
+      if (sizes[c] > 0) (*centres)[c] = Normalised(sums[c], sizes[c]);
+    }
+  }
+
+  void Reorder(uint32_t begin, uint32_t end, uint32_t children,
+               std::array<uint32_t, kMostChildren + 1>* bounds) {
+    uint32_t next = begin;
+    for (uint32_t c = 0; c < children; ++c) {
+      (*bounds)[c] = next;
+      for (uint32_t i = begin; i < end; ++i) {
+        if (cluster_[i] != c) continue;
+        scratch_points_[next] = points_[i];
+        scratch_order_[next++] = tree_.order_[i];
+      }
+    }
+    (*bounds)[children] = end;
+    std::copy(scratch_points_.begin() + begin, scratch_points_.begin() + end,
+              points_.begin() + begin);
+    std::copy(scratch_order_.begin() + begin, scratch_order_.begin() + end,
+              tree_.order_.begin() + begin);
+  }
+
+  const CodecSettings& settings_;
+  double scale_;
+  double normal_weight_ = 0;
+  std::span<const Int3> positions_;
+  std::vector<Point> points_, scratch_points_;
+  std::vector<uint32_t> scratch_order_;
+  std::vector<uint8_t> cluster_;
+  std::vector<double> distance_;
+  SetTree tree_;
+};
+
+SetTree BuildLloydTree(std::span<const Int3> positions, const SurfaceAttributes& surface,
+                       double longest_side, const CodecSettings& settings) {
+  return LloydBuilder(positions, surface, longest_side, settings).Build();
+}
+
+}  // namespace folprom

@@ -1,0 +1,46 @@
+// Decoding from memory, one thread, layer by layer. Links the C++ standard library and xxHash only.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "folprom/result.h"
+
+namespace folprom {
+
+/// A level of detail. Positions in model units.
+struct DecodedMesh {
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<uint64_t, 3>> faces;
+};
+
+/// Decodes a .folp file held in memory. Not thread-safe; move-only.
+class MemoryDecoder {
+ public:
+  /// `file` must outlive the decoder. Errors: kCorrupt, kInput (unknown version).
+  static Result<MemoryDecoder> Open(std::span<const uint8_t> file);
+  MemoryDecoder(MemoryDecoder&&) noexcept;
+  MemoryDecoder& operator=(MemoryDecoder&&) noexcept;
+  ~MemoryDecoder();
+
+  size_t layer_count() const;       ///< as announced
+  size_t complete_layers() const;   ///< whole in the bytes given
+  size_t decoded_layers() const;
+  double error_bound() const;       ///< of the last decoded layer, model units
+  /// Decodes one more layer. kCorrupt when it is damaged or cut; the mesh then stays that of the
+  /// layers before only if nothing of the layer was applied, so stop using the decoder.
+  Result<void> DecodeNextLayer();
+  /// The mesh of the layers decoded so far (at least one).
+  DecodedMesh Mesh() const;
+
+ private:
+  struct Impl;
+  explicit MemoryDecoder(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace folprom

@@ -1,0 +1,98 @@
+// The whole program as four calls: encode, decode, info, verify. Files in, files out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "folprom/result.h"
+#include "folprom/settings.h"
+
+namespace folprom::parallel {
+class Runner;
+class Progress;
+}  // namespace folprom::parallel
+
+namespace folprom {
+
+/// Outcome of EncodeFile. Warnings are sentences for the user (polygons triangulated, properties
+/// not coded, ...).
+struct EncodeReport {
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+  uint64_t bytes = 0;
+  uint64_t subtrees = 0;
+  uint64_t layers = 0;
+  uint64_t spill_bytes = 0;  ///< temporary disk used at the peak
+  std::vector<std::string> warnings;
+};
+
+/// Encodes a scan. Same bytes for every runner and memory limit. Errors: kUsage (settings), kInput,
+/// kOutput, kLimit, kInterrupted; nothing is left behind after an error.
+Result<EncodeReport> EncodeFile(const std::string& input, const std::string& output,
+                                const EncodeOptions& options, parallel::Runner& runner,
+                                parallel::Progress& progress);
+
+struct DecodeReport {
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+  uint64_t layers = 0;        ///< decoded
+  uint64_t layers_total = 0;  ///< in the file as announced
+  bool complete = false;      ///< the whole mesh came back
+  uint64_t bytes_read = 0;    ///< bytes of the file that the request needed
+  double error_bound = 0;     ///< of the last decoded layer, model units
+  std::vector<std::string> warnings;  ///< for instance "file is cut after layer 12 of 30"
+};
+
+/// Decodes to a binary PLY. Errors: kUsage, kInput, kCorrupt, kOutput, kLimit, kInterrupted.
+Result<DecodeReport> DecodeFile(const std::string& input, const std::string& output,
+                                const DecodeOptions& options, parallel::Runner& runner,
+                                parallel::Progress& progress);
+
+struct LayerInfo {
+  uint64_t bytes = 0;         ///< of this layer alone
+  uint64_t end_byte = 0;      ///< of the file up to and with this layer
+  uint64_t vertices = 0;      ///< of the LOD
+  uint64_t faces = 0;         ///< of the LOD
+  double error_bound = 0;     ///< model units
+  double bits_per_vertex = 0; ///< rate up to and with this layer, whole file prefix
+};
+
+struct FileInfo {
+  uint32_t format_version = 0;
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+  uint64_t bytes = 0;            ///< as announced by the table
+  uint64_t bytes_present = 0;    ///< fewer when the file is cut
+  uint64_t layers_present = 0;
+  uint64_t subtrees = 0;
+  double tolerance = 0;
+  std::array<double, 3> box_lo{}, box_hi{};
+  CodecSettings codec;
+  std::vector<LayerInfo> layers;
+  /// Bits per vertex of the original by kind.
+  double split = 0, offsets = 0, refinement = 0, connectivity = 0, exceptions = 0, seams = 0;
+  uint64_t table_bytes = 0, checksum_bytes = 0, flush_bytes = 0;
+  double overhead = 0;  ///< (table + checksums + flushes) / bytes
+};
+
+Result<FileInfo> ReadInfo(const std::string& input);
+
+struct VerifyReport {
+  bool lossless = false;
+  bool against = false;            ///< an original was compared
+  double max_position_error = 0;   ///< largest |difference| on one axis, model units (against only)
+  double tolerance = 0;
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+  std::string reason;  ///< why not lossless; empty otherwise
+};
+
+/// Decodes everything and compares it with the digest of the file and, when `original` is not
+/// empty, vertex by vertex and face by face with that scan. A cut file is not lossless.
+Result<VerifyReport> VerifyFile(const std::string& input, const std::string& original,
+                                const DecodeOptions& options, parallel::Runner& runner,
+                                parallel::Progress& progress);
+
+}  // namespace folprom

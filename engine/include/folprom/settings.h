@@ -1,0 +1,88 @@
+// Everything that decides the bytes of a .folp file, and nothing that does not.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "folprom/result.h"
+
+namespace folprom {
+
+enum class Hierarchy : uint8_t {
+  kLloyd = 0  ///< top-down vertex set split, section 2.1
+};
+
+enum class Offsets : uint8_t {
+  kCylindrical = 0  ///< cylindrical offsets in the least-squares frame, section 2.2
+};
+
+enum class Representative : uint8_t {
+  kCurvature = 0,  ///< vertex of high curvature near the centre where curvature varies, else centre
+  kCentre = 1      ///< always the centre
+};
+
+/// Settings of the coder. The same values and the same scan give the same bytes. Each field is a key
+/// of the [codec] table of a config file, by the same name.
+struct CodecSettings {
+  Hierarchy hierarchy = Hierarchy::kLloyd;
+  Offsets offsets = Offsets::kCylindrical;
+
+  uint32_t subtree_vertices = 65536;  ///< largest subtree; 1 .. 16,777,216
+
+  // Hierarchy (section 2.1)
+  uint32_t children = 4;             ///< K, children of a split; 2 .. 8
+  bool normal_metric = true;         ///< w_n as in the paper; false: Euclidean distance
+  double metric_a = 1;               ///< a; 0 .. 1
+  double metric_b = 8;               ///< b; 1 .. 64
+  uint32_t lloyd_iterations = 12;    ///< at most this many; 1 .. 100
+  double lloyd_threshold = 0.01;     ///< stop when distortion falls by less than this part; 0 .. 1
+  Representative representative = Representative::kCurvature;
+  double curvature_threshold = 0.1;  ///< T_c; 0 .. 1
+  double gaussian_ratio = 3;         ///< r_g; 0.01 .. 100
+
+  // Offsets (sections 2.2 - 2.4)
+  uint32_t quantisation_levels = 32;  ///< Q; 2 .. 4096
+  bool adaptive_quantisation = true;  ///< G_rho = R_rho/Q, G_z = R_z/Q; false: one step for both
+  bool predict_theta = true;          ///< section 2.3
+  bool predict_height = true;         ///< section 2.3
+  bool split_first = true;            ///< sets of more than one vertex first; then refinement
+
+  // Connectivity (section 3)
+  bool pivot_order = true;   ///< flags in order of regularity; false: by vertex id
+  bool nearer_child = true;  ///< side flags relative to the nearer child
+
+  // Layers
+  uint32_t layers_per_octave = 2;  ///< layers per halving of the spacing; 1 .. 8
+  uint32_t rounds_per_layer = 2;   ///< largest spacing first, in this many steps a layer; 1 .. 16
+};
+
+/// kUsage with the name of the first field out of its range.
+Result<void> CheckSettings(const CodecSettings& settings);
+
+/// What `encode` is asked for.
+struct EncodeOptions {
+  CodecSettings codec;
+  /// Lattice bits N: tolerance = longest box side / (2^N - 1) / 2. 1 .. 24. Used when tolerance == 0.
+  uint32_t bits = 12;
+  /// Largest error per axis in model units; 0: from `bits`.
+  double tolerance = 0;
+  uint64_t memory_bytes = uint64_t{2} << 30;  ///< resident size to stay below; never alters bytes
+  std::string temporary_folder;               ///< empty: $TMPDIR or /tmp
+  bool overwrite = false;                     ///< may replace the output
+};
+
+/// What `decode` is asked for. At most one of the bounds is set; none: everything.
+struct DecodeOptions {
+  double bits_per_vertex = 0;   ///< > 0: as many whole layers as fit into this rate (at least one)
+  double max_error = 0;         ///< > 0: first layer whose error bound is at most this; else all
+  uint64_t max_vertices = 0;    ///< > 0: last layer with at most this many vertices (at least one)
+  uint32_t layers = 0;          ///< > 0: this many layers
+  bool use_region = false;      ///< only the vertices inside the box, and faces with all three inside
+  double region_lo[3] = {0, 0, 0};
+  double region_hi[3] = {0, 0, 0};
+  uint64_t memory_bytes = uint64_t{2} << 30;
+  std::string temporary_folder;
+  bool overwrite = false;
+};
+
+}  // namespace folprom

@@ -1,0 +1,79 @@
+#include <algorithm>
+
+#include "engine/folp_file.h"
+#include "engine/run_guarded.h"
+#include "folprom/folprom.h"
+
+namespace folprom {
+namespace {
+
+void DescribeLayers(const FolpFile& file, FileInfo* info) {
+  const io::FileTable& table = file.table();
+  uint64_t before = file.container().table_bytes();
+  for (size_t k = 0; k < table.layers.size(); ++k) {
+    LayerInfo layer;
+    layer.end_byte = file.container().LayerEnd(k);
+    layer.bytes = layer.end_byte - before;
+    before = layer.end_byte;
+    layer.vertices = table.layers[k].vertices;
+    layer.faces = table.layers[k].faces;
+    layer.error_bound = static_cast<double>(table.layers[k].error_bound);
+    layer.bits_per_vertex = table.vertices == 0 ? 0
+                                                : 8 * static_cast<double>(layer.end_byte) /
+                                                      static_cast<double>(table.vertices);
+    info->layers.push_back(layer);
+  }
+}
+
+void DescribeBits(const FolpFile& file, FileInfo* info) {
+  const io::FileTable& table = file.table();
+  uint64_t kind_bits = 0, segment_bytes = 0;
+  for (uint64_t bits : table.kind_bits) kind_bits += bits;
+  for (uint64_t bytes : table.segment_bytes) segment_bytes += bytes;
+  auto rate = [&](io::BitKind kind) {
+    double bits = static_cast<double>(table.kind_bits[static_cast<size_t>(kind)]);
+    return table.vertices == 0 ? 0 : bits / static_cast<double>(table.vertices);
+  };
+  info->split = rate(io::BitKind::kSplit);
+  info->offsets = rate(io::BitKind::kOffsets);
+  info->refinement = rate(io::BitKind::kRefinement);
+  info->connectivity = rate(io::BitKind::kConnectivity);
+  info->exceptions = rate(io::BitKind::kExceptions);
+  info->seams = rate(io::BitKind::kSeams);
+  info->table_bytes = file.container().table_bytes();
+  info->checksum_bytes = file.container().checksum_bytes();
+  // What the segments hold beyond the information in them: rounding up to whole bytes.
+  info->flush_bytes = segment_bytes - std::min(segment_bytes, kind_bits / 8);
+  info->overhead = static_cast<double>(info->table_bytes + info->checksum_bytes + info->flush_bytes) /
+                   static_cast<double>(std::max<uint64_t>(info->bytes, 1));
+}
+
+}  // namespace
+
+Result<FileInfo> ReadInfo(const std::string& input) {
+  return RunGuarded<FileInfo>([&] {
+    FolpFile file(input);
+    const io::FileTable& table = file.table();
+    FileInfo info;
+    info.format_version = io::kFormatVersion;
+    info.vertices = table.vertices;
+    info.faces = table.faces;
+    info.bytes = file.container().file_bytes();
+    info.bytes_present = file.bytes_present();
+    info.layers_present = file.container().complete_layers();
+    info.subtrees = table.subtrees.size();
+    info.tolerance = table.tolerance;
+    Lattice lattice = file.lattice();
+    for (int axis = 0; axis < 3; ++axis) {
+      size_t i = static_cast<size_t>(axis);
+      info.box_lo[i] = lattice.ToModel(axis, 0);
+      info.box_hi[i] = lattice.ToModel(axis, lattice.extent[i]);
+    }
+    info.codec = file.parameters().settings;
+    DescribeLayers(file, &info);
+    DescribeBits(file, &info);
+    return info;
+  });
+}
+
+}  // namespace folprom

@@ -1,0 +1,105 @@
+#include <deque>
+#include <new>
+#include <utility>
+
+#include "engine/codec/layer_reader.h"
+#include "engine/mesh/lattice.h"
+#include "folprom/decoder.h"
+#include "io/container/reader.h"
+
+namespace folprom {
+
+struct MemoryDecoder::Impl {
+  explicit Impl(io::ContainerReader opened)
+      : container(std::move(opened)), parameters(ParametersOf(container.table())) {
+    const io::FileTable& table = container.table();
+    std::vector<bool> border = SubtreesWithBorder(table);
+    for (size_t s = 0; s < table.subtrees.size(); ++s) {
+      subtrees.emplace_back(container, parameters, s, border[s]);
+    }
+    for (size_t s = 0; s < table.subtrees.size(); ++s) {
+      const auto& lower = table.subtrees[s].lower_neighbours;
+      if (lower.empty()) continue;
+      std::vector<SeamCoder::Participant> members;
+      for (uint32_t member : lower) members.push_back({member, &subtrees[member].state().border()});
+      members.push_back({static_cast<uint32_t>(s), &subtrees[s].state().border()});
+      seams.emplace_back(container, parameters, s, std::move(members));
+    }
+  }
+
+  io::ContainerReader container;
+  CodecParameters parameters;
+  std::deque<SubtreeReader> subtrees;  // addresses stay: seams point into them
+  std::deque<SeamReader> seams;
+  size_t decoded = 0;
+};
+
+MemoryDecoder::MemoryDecoder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MemoryDecoder::MemoryDecoder(MemoryDecoder&&) noexcept = default;
+MemoryDecoder& MemoryDecoder::operator=(MemoryDecoder&&) noexcept = default;
+MemoryDecoder::~MemoryDecoder() = default;
+
+Result<MemoryDecoder> MemoryDecoder::Open(std::span<const uint8_t> file) {
+  try {
+    auto container = io::ContainerReader::Open(file, "memory");
+    return MemoryDecoder(std::make_unique<Impl>(std::move(container).value()));
+  } catch (const Failure& failure) {
+    return failure.error();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::kLimit, "out of memory"};
+  }
+}
+
+size_t MemoryDecoder::layer_count() const { return impl_->container.table().layers.size(); }
+size_t MemoryDecoder::complete_layers() const { return impl_->container.complete_layers(); }
+size_t MemoryDecoder::decoded_layers() const { return impl_->decoded; }
+
+double MemoryDecoder::error_bound() const {
+  if (impl_->decoded == 0) return 0;
+  return static_cast<double>(impl_->container.table().layers[impl_->decoded - 1].error_bound);
+}
+
+Result<void> MemoryDecoder::DecodeNextLayer() {
+  try {
+    if (impl_->decoded >= complete_layers()) {
+      return Error{ErrorKind::kCorrupt, "no further complete layer in the file"};
+    }
+    for (SubtreeReader& subtree : impl_->subtrees) subtree.DecodeLayer();
+    for (SeamReader& seam : impl_->seams) seam.DecodeLayer();
+    ++impl_->decoded;
+    return {};
+  } catch (const Failure& failure) {
+    return failure.error();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::kLimit, "out of memory"};
+  }
+}
+
+DecodedMesh MemoryDecoder::Mesh() const {
+  const io::FileTable& table = impl_->container.table();
+  Lattice lattice{table.origin, table.unit, table.extent};
+  DecodedMesh mesh;
+  std::vector<uint64_t> base;
+  std::vector<std::vector<uint32_t>> border;
+  std::vector<Face> faces;
+  for (const SubtreeReader& subtree : impl_->subtrees) {
+    base.push_back(mesh.positions.size());
+    border.push_back(subtree.state().BorderVertices());
+    for (const Int3& p : subtree.state().positions()) {
+      mesh.positions.push_back(
+          {lattice.ToModel(0, p.x), lattice.ToModel(1, p.y), lattice.ToModel(2, p.z)});
+    }
+    faces.clear();
+    subtree.state().AppendFaces(&faces);
+    for (const Face& f : faces) {
+      mesh.faces.push_back({base.back() + f[0], base.back() + f[1], base.back() + f[2]});
+    }
+  }
+  std::vector<SeamFace> cross;
+  for (const SeamReader& seam : impl_->seams) seam.state().AppendFaces(&cross);
+  auto index = [&](const BorderRef& ref) { return base[ref.subtree] + border[ref.subtree][ref.border]; };
+  for (const SeamFace& f : cross) mesh.faces.push_back({index(f[0]), index(f[1]), index(f[2])});
+  return mesh;
+}
+
+}  // namespace folprom

@@ -1,0 +1,14 @@
+// A fingerprint of a mesh that does not depend on the order of its vertices and faces.
+#pragma once
+
+#include "engine/mesh/types.h"
+#include "io/container/file_table.h"
+
+namespace folprom {
+
+/// Adds one vertex at a lattice position.
+void AddVertex(io::MeshDigest* digest, const Int3& position);
+/// Adds one face by its corners' positions; the same for every rotation, not for a reflection.
+void AddFace(io::MeshDigest* digest, Int3 a, Int3 b, Int3 c);
+
+}  // namespace folprom

@@ -1,0 +1,35 @@
+// The plain values that every stage of the engine passes on.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+
+namespace folprom {
+
+/// A position on the working lattice (see lattice.h). Every coordinate lies in [0, 2^30).
+struct Int3 {
+  int32_t x = 0;
+  int32_t y = 0;
+  int32_t z = 0;
+  auto operator<=>(const Int3&) const = default;
+};
+
+/// A triangle as three vertex indices inside one subtree, in the order of its orientation.
+using Face = std::array<uint32_t, 3>;
+
+/// A vertex of the whole mesh: its subtree and its index inside it (order of the input file).
+struct VertexRef {
+  uint32_t subtree = 0;
+  uint32_t local = 0;
+  auto operator<=>(const VertexRef&) const = default;
+};
+
+/// A face whose vertices lie in two or three subtrees, with their positions so that normals need
+/// no other chunk.
+struct CrossFace {
+  std::array<VertexRef, 3> vertex;
+  std::array<Int3, 3> position;
+};
+
+}  // namespace folprom

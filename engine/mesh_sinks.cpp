@@ -1,0 +1,125 @@
+#include "engine/mesh_sinks.h"
+
+#include <algorithm>
+
+#include "engine/mesh/digest.h"
+
+namespace folprom {
+namespace {
+
+constexpr uint64_t kOutside = ~uint64_t{0};
+constexpr size_t kFacesPerWrite = 65536;
+
+/// Entry `subtree` of a table that grows as subtrees arrive.
+template <class T>
+std::vector<T>& EntryFor(std::vector<std::vector<T>>& table, uint32_t subtree) {
+  if (subtree >= table.size()) table.resize(subtree + size_t{1});
+  return table[subtree];
+}
+
+}  // namespace
+
+void PlySink::AddSubtree(uint32_t subtree, std::span<const Int3> positions,
+                         std::span<const Face> faces, std::span<const uint32_t> border_vertices) {
+  xyz_.clear();
+  xyz_.reserve(positions.size() * 3);
+  for (const Int3& p : positions) {
+    xyz_.insert(xyz_.end(),
+                {lattice_.ToModel(0, p.x), lattice_.ToModel(1, p.y), lattice_.ToModel(2, p.z)});
+  }
+  writer_.AppendVertices(xyz_).value();
+  auto& border = EntryFor(border_, subtree);
+  for (uint32_t vertex : border_vertices) border.push_back(vertices_ + vertex);
+  for (const Face& f : faces) {
+    triangles_.push_back({vertices_ + f[0], vertices_ + f[1], vertices_ + f[2]});
+    if (triangles_.size() == kFacesPerWrite) Flush(&triangles_);
+  }
+  Flush(&triangles_);
+  vertices_ += positions.size();
+}
+
+void PlySink::AddSeam(std::span<const SeamFace> faces) {
+  for (const SeamFace& f : faces) {
+    io::Triangle triangle;
+    for (size_t i = 0; i < 3; ++i) triangle[i] = border_[f[i].subtree][f[i].border];
+    triangles_.push_back(triangle);
+  }
+  Flush(&triangles_);
+}
+
+void PlySink::Flush(std::vector<io::Triangle>* triangles) {
+  writer_.AppendFaces(*triangles).value();
+  faces_ += triangles->size();
+  triangles->clear();
+}
+
+RegionSink::RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,
+                       const io::SpillDirectory& spill)
+    : lattice_(lattice), lo_(lo), hi_(hi), streams_(spill, "region", 2, uint64_t{1} << 20) {}
+
+void RegionSink::AddSubtree(uint32_t subtree, std::span<const Int3> positions,
+                            std::span<const Face> faces,
+                            std::span<const uint32_t> border_vertices) {
+  index_.assign(positions.size(), kOutside);
+  for (size_t v = 0; v < positions.size(); ++v) {
+    const Int3& p = positions[v];
+    std::array<double, 3> xyz{lattice_.ToModel(0, p.x), lattice_.ToModel(1, p.y),
+                              lattice_.ToModel(2, p.z)};
+    bool inside = true;
+    for (size_t i = 0; i < 3; ++i) inside &= xyz[i] >= lo_[i] && xyz[i] <= hi_[i];
+    if (!inside) continue;
+    index_[v] = vertices_++;
+    streams_.AppendValue(0, xyz);
+  }
+  auto& border = EntryFor(border_, subtree);
+  for (uint32_t vertex : border_vertices) border.push_back(index_[vertex]);
+  for (const Face& f : faces) Keep({index_[f[0]], index_[f[1]], index_[f[2]]});
+}
+
+void RegionSink::AddSeam(std::span<const SeamFace> faces) {
+  for (const SeamFace& f : faces) {
+    Keep({border_[f[0].subtree][f[0].border], border_[f[1].subtree][f[1].border],
+          border_[f[2].subtree][f[2].border]});
+  }
+}
+
+void RegionSink::Keep(const io::Triangle& face) {
+  for (uint64_t vertex : face) {
+    if (vertex == kOutside) return;
+  }
+  streams_.AppendValue(1, face);
+  ++faces_;
+}
+
+void RegionSink::WriteTo(io::PlyWriter& writer) {
+  streams_.Finish();
+  io::MappedFile positions = streams_.Map(0), faces = streams_.Map(1);
+  std::span<const double> xyz = io::MappedArray<double>(positions);
+  std::span<const io::Triangle> triangles = io::MappedArray<io::Triangle>(faces);
+  constexpr size_t kStep = 3 * 65536;
+  for (size_t i = 0; i < xyz.size(); i += kStep) {
+    writer.AppendVertices(xyz.subspan(i, std::min(kStep, xyz.size() - i))).value();
+  }
+  for (size_t i = 0; i < triangles.size(); i += kFacesPerWrite) {
+    writer.AppendFaces(triangles.subspan(i, std::min(kFacesPerWrite, triangles.size() - i))).value();
+  }
+}
+
+void DigestSink::AddSubtree(uint32_t subtree, std::span<const Int3> positions,
+                            std::span<const Face> faces,
+                            std::span<const uint32_t> border_vertices) {
+  for (const Int3& p : positions) AddVertex(&digest_, p);
+  for (const Face& f : faces) AddFace(&digest_, positions[f[0]], positions[f[1]], positions[f[2]]);
+  auto& border = EntryFor(border_, subtree);
+  for (uint32_t vertex : border_vertices) border.push_back(positions[vertex]);
+  vertices_ += positions.size();
+  faces_ += faces.size();
+}
+
+void DigestSink::AddSeam(std::span<const SeamFace> faces) {
+  auto at = [&](const BorderRef& ref) { return border_[ref.subtree][ref.border]; };
+  for (const SeamFace& f : faces) AddFace(&digest_, at(f[0]), at(f[1]), at(f[2]));
+  faces_ += faces.size();
+}
+
+}  // namespace folprom

@@ -1,0 +1,78 @@
+// Where decoded parts go: a PLY file, the part of it inside a box, or a digest.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/decode_pipeline.h"
+#include "engine/mesh/lattice.h"
+#include "io/container/file_table.h"
+#include "io/formats/ply_writer.h"
+#include "io/spill/spill.h"
+
+namespace folprom {
+
+/// Writes every part straight to its place in the output.
+class PlySink final : public MeshSink {
+ public:
+  PlySink(const Lattice& lattice, io::PlyWriter& writer) : lattice_(lattice), writer_(writer) {}
+  void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
+                  std::span<const uint32_t> border_vertices) override;
+  void AddSeam(std::span<const SeamFace> faces) override;
+  uint64_t vertices() const { return vertices_; }
+  uint64_t faces() const { return faces_; }
+
+ private:
+  void Flush(std::vector<io::Triangle>* triangles);
+  Lattice lattice_;
+  io::PlyWriter& writer_;
+  uint64_t vertices_ = 0, faces_ = 0;
+  std::vector<std::vector<uint64_t>> border_;  ///< per subtree: output index of each border set
+  std::vector<double> xyz_;
+  std::vector<io::Triangle> triangles_;
+};
+
+/// Keeps the vertices inside a box and the faces with all corners inside; their number is known only
+/// at the end, so they wait in the spill.
+class RegionSink final : public MeshSink {
+ public:
+  RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,
+             const io::SpillDirectory& spill);
+  void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
+                  std::span<const uint32_t> border_vertices) override;
+  void AddSeam(std::span<const SeamFace> faces) override;
+  uint64_t vertices() const { return vertices_; }
+  uint64_t faces() const { return faces_; }
+  /// Ends the collection and appends everything to the writer.
+  void WriteTo(io::PlyWriter& writer);
+
+ private:
+  void Keep(const io::Triangle& face);
+  Lattice lattice_;
+  std::array<double, 3> lo_, hi_;
+  io::SpillStreams streams_;  ///< 0: positions, 1: faces
+  uint64_t vertices_ = 0, faces_ = 0;
+  std::vector<std::vector<uint64_t>> border_;
+  std::vector<uint64_t> index_;
+};
+
+class DigestSink final : public MeshSink {
+ public:
+  void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
+                  std::span<const uint32_t> border_vertices) override;
+  void AddSeam(std::span<const SeamFace> faces) override;
+  const io::MeshDigest& digest() const { return digest_; }
+  uint64_t vertices() const { return vertices_; }
+  uint64_t faces() const { return faces_; }
+
+ private:
+  io::MeshDigest digest_;
+  uint64_t vertices_ = 0, faces_ = 0;
+  std::vector<std::vector<Int3>> border_;
+};
+
+}  // namespace folprom

@@ -1,0 +1,115 @@
+// The passes in their order, and the scan that they leave on disk.
+#include "engine/partition/partition.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/partition/job.h"
+#include "engine/partition/offset_file.h"
+#include "engine/partition/scatter.h"
+#include "engine/partition/voxel_normals.h"
+#include "engine/partition/voxel_split.h"
+#include "engine/partition/voxel_statistics.h"
+
+namespace folprom {
+namespace partition {
+namespace {
+
+// Larger buffers would only leave the cache before they are written.
+constexpr uint64_t kBufferBytes = 64 << 10;
+
+uint64_t BufferBytes(size_t streams, uint64_t memory_bytes) {
+  return std::min(memory_bytes / 16, streams * kBufferBytes);
+}
+
+class SpilledScan final : public PartitionedScan {
+ public:
+  SpilledScan(const io::SpillDirectory& spill, std::vector<SubtreeSummary> subtrees,
+              uint64_t memory_bytes)
+      : subtrees_(std::move(subtrees)),
+        positions_(spill, "partition.positions", subtrees_.size(),
+                   BufferBytes(subtrees_.size(), memory_bytes)),
+        faces_(spill, "partition.faces", subtrees_.size(),
+                     BufferBytes(subtrees_.size(), memory_bytes / 2)),
+        cross_faces_(spill, "partition.cross", subtrees_.size(),
+                     BufferBytes(subtrees_.size(), memory_bytes / 2)) {}
+
+  /// The two scatter passes.
+  void Fill(Job& job, const OffsetFile& records, std::span<const uint32_t> subtree_of_voxel) {
+    OffsetFile refs(job.spill, "partition.vertex_map");
+    ScatterVertices(job, records, subtree_of_voxel, subtrees_.size(), refs, positions_);
+    positions_.Finish();
+    vertex_map_ = refs.Map();
+    ScatterFaces(job, records.Map(), vertex_map_, faces_, cross_faces_, subtrees_);
+    faces_.Finish();
+    cross_faces_.Finish();
+  }
+
+  size_t subtree_count() const override { return subtrees_.size(); }
+  const SubtreeSummary& summary(size_t subtree) const override { return subtrees_[subtree]; }
+
+  SubtreeChunk Load(size_t subtree) const override {
+    SubtreeChunk chunk;
+    chunk.storage.push_back(positions_.Map(subtree));
+    chunk.storage.push_back(faces_.Map(subtree));
+    chunk.storage.push_back(cross_faces_.Map(subtree));
+    chunk.positions = io::MappedArray<Int3>(chunk.storage[0]);
+    chunk.faces = io::MappedArray<Face>(chunk.storage[1]);
+    chunk.cross_faces = io::MappedArray<CrossFace>(chunk.storage[2]);
+    return chunk;
+  }
+
+  void Remove(size_t subtree) override {
+    positions_.Remove(subtree);
+    faces_.Remove(subtree);
+    cross_faces_.Remove(subtree);
+  }
+
+  std::span<const VertexRef> vertex_map() const override {
+    return io::MappedArray<VertexRef>(vertex_map_);
+  }
+
+ private:
+  std::vector<SubtreeSummary> subtrees_;
+  io::SpillStreams positions_;
+  io::SpillStreams faces_;
+  io::SpillStreams cross_faces_;
+  io::MappedFile vertex_map_;
+};
+
+std::unique_ptr<PartitionedScan> Run(Job& job) {
+  const uint64_t vertices = job.source.vertex_count(), triangles = job.source.triangle_count();
+  const bool needs_normals =
+      vertices > job.settings.subtree_vertices && job.settings.normal_metric;
+  job.progress.StartStage("partition", 2 * vertices + (needs_normals ? 2 : 1) * triangles);
+
+  OffsetFile records(job.spill, "partition.vertices");
+  const std::vector<Voxel> voxels = CollectVoxels(job, records);
+  std::vector<NormalSum> normals;
+  if (needs_normals) normals = CollectNormals(job, records.Map(), voxels.size());
+  VoxelSplit split = SplitVoxels(voxels, normals, job.lattice, job.settings);
+  job.progress.ThrowIfCancelled();
+
+  auto scan = std::make_unique<SpilledScan>(job.spill, std::move(split.subtrees),
+                                            job.memory_bytes);
+  scan->Fill(job, records, split.subtree);
+  records.Remove();
+  return scan;
+}
+
+}  // namespace
+}  // namespace partition
+
+std::unique_ptr<PartitionedScan> PartitionScan(const io::MeshSource& source, const Lattice& lattice,
+                                               const PartitionSettings& settings,
+                                               uint64_t memory_bytes, parallel::Runner& runner,
+                                               const io::SpillDirectory& spill,
+                                               parallel::Progress& progress) {
+  if (settings.subtree_vertices == 0) {
+    throw Failure(ErrorKind::kUsage, "subtree_vertices must be at least 1");
+  }
+  partition::Job job{source, lattice, settings, memory_bytes, runner, spill, progress};
+  return partition::Run(job);
+}
+
+}  // namespace folprom

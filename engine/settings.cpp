@@ -1,0 +1,102 @@
+#include <array>
+#include <charconv>
+#include <string>
+#include <type_traits>
+
+#include "folprom/settings_keys.h"
+
+namespace folprom {
+namespace {
+
+constexpr std::string_view kHierarchies[] = {"lloyd"};
+constexpr std::string_view kOffsets[] = {"cylindrical"};
+constexpr std::string_view kRepresentatives[] = {"curvature", "centre"};
+
+using S = CodecSettings;
+
+constexpr SettingKey kKeys[] = {
+    {"hierarchy", &S::hierarchy, "how vertex sets are made: lloyd, top-down split (section 2.1)", "",
+     0, 0, kHierarchies},
+    {"offsets", &S::offsets,
+     "how children are placed: cylindrical, in the least-squares frame (section 2.2)", "", 0, 0,
+     kOffsets},
+    {"subtree_vertices", &S::subtree_vertices,
+     "largest subtree: unit of parallel work, memory and random access", "vertices", 1, 16777216},
+    {"children", &S::children, "K, children of a split (section 2)", "vertex sets", 2, 8},
+    {"normal_metric", &S::normal_metric,
+     "distances weigh normals by w_n (section 2.1); false: Euclidean distance", ""},
+    {"metric_a", &S::metric_a, "a in w_n (section 2.1)", "", 0, 1},
+    {"metric_b", &S::metric_b, "b in w_n (section 2.1)", "", 1, 64},
+    {"lloyd_iterations", &S::lloyd_iterations, "at most this many Lloyd iterations a split",
+     "iterations", 1, 100},
+    {"lloyd_threshold", &S::lloyd_threshold,
+     "Lloyd stops when the distortion falls by less than this part", "", 0, 1},
+    {"representative", &S::representative,
+     "curvature: a vertex of high curvature where curvature varies, else the centre; centre: always",
+     "", 0, 0, kRepresentatives},
+    {"curvature_threshold", &S::curvature_threshold,
+     "T_c, deviation of curvature from which a representative is chosen by curvature", "", 0, 1},
+    {"gaussian_ratio", &S::gaussian_ratio,
+     "r_g, width of the Gaussian over the mean distance to the centre", "", 0.01, 100},
+    {"quantisation_levels", &S::quantisation_levels, "Q, levels per coordinate of an offset",
+     "levels", 2, 4096},
+    {"adaptive_quantisation", &S::adaptive_quantisation,
+     "steps from the neighbours' ranges, G = R / Q (section 2.2); false: one step for both", ""},
+    {"predict_theta", &S::predict_theta, "predict angles, children spread evenly (section 2.3)", ""},
+    {"predict_height", &S::predict_height, "predict heights from the parent (section 2.3)", ""},
+    {"split_first", &S::split_first,
+     "split sets of more than one vertex first, refine positions afterwards", ""},
+    {"pivot_order", &S::pivot_order,
+     "pivot flags in order of regularity (section 3); false: by vertex id", ""},
+    {"nearer_child", &S::nearer_child, "side flags relative to the nearer child (section 3)", ""},
+    {"layers_per_octave", &S::layers_per_octave, "layers per halving of the vertex spacing",
+     "layers", 1, 8},
+    {"rounds_per_layer", &S::rounds_per_layer,
+     "steps in which a layer works down from its largest spacing", "rounds", 1, 16},
+};
+
+std::string NumberText(double value) {
+  std::array<char, 64> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::general, 12)
+                       .ptr;
+  return {text.data(), end};
+}
+
+Error OutOfRange(const SettingKey& key, const std::string& value) {
+  std::string message = "setting " + std::string(key.name) + " is " + value + ", ";
+  if (key.choices.empty()) {
+    message += "must be " + NumberText(key.lo) + " .. " + NumberText(key.hi);
+  } else {
+    message += "must be below " + std::to_string(key.choices.size());
+  }
+  return {ErrorKind::kUsage, message};
+}
+
+template <class T>
+Result<void> CheckValue(const SettingKey& key, T value) {
+  if constexpr (std::is_enum_v<T>) {
+    const auto index = static_cast<size_t>(value);
+    if (index >= key.choices.size()) return OutOfRange(key, std::to_string(index));
+  } else if constexpr (!std::is_same_v<T, bool>) {
+    const auto number = static_cast<double>(value);
+    // Negated, so that NaN fails.
+    if (!(number >= key.lo && number <= key.hi)) return OutOfRange(key, NumberText(number));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::span<const SettingKey> SettingKeys() { return kKeys; }
+
+Result<void> CheckSettings(const CodecSettings& settings) {
+  for (const SettingKey& key : kKeys) {
+    const Result<void> checked = std::visit(
+        [&](auto member) { return CheckValue(key, settings.*member); }, key.member);
+    if (!checked) return checked.error();
+  }
+  return {};
+}
+
+}  // namespace folprom

@@ -1,0 +1,265 @@
+// Is what comes back what went in: by the digest in the file, or vertex by vertex with the scan.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "engine/decode_pipeline.h"
+#include "engine/encode_job.h"
+#include "engine/folp_file.h"
+#include "engine/mesh_sinks.h"
+#include "engine/run_guarded.h"
+#include "folprom/folprom.h"
+#include "io/container/checksum.h"
+
+namespace folprom {
+namespace {
+
+DecodeSelection Everything(const FolpFile& file) {
+  DecodeSelection selection;
+  selection.layers = file.table().layers.size();
+  selection.wanted.resize(file.table().subtrees.size());
+  std::iota(selection.wanted.begin(), selection.wanted.end(), 0u);
+  return selection;
+}
+
+/// Hash of a face by the indices of its vertices, the same for every rotation.
+uint64_t HashFace(std::array<uint64_t, 3> face) {
+  std::array<uint64_t, 3> best = face;
+  for (int i = 0; i < 2; ++i) {
+    face = {face[1], face[2], face[0]};
+    best = std::min(best, face);
+  }
+  return io::XxHash64({reinterpret_cast<const uint8_t*>(best.data()), sizeof best});
+}
+
+/// Spills decoded positions per subtree and sums the faces by their decoded vertex indices.
+class MatchSink final : public MeshSink {
+ public:
+  explicit MatchSink(const io::SpillDirectory& spill) : spill_(spill) {}
+  void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
+                  std::span<const uint32_t> border_vertices) override {
+    digest.AddSubtree(subtree, positions, faces, border_vertices);
+    io::WriteSpillFile(spill_, "decoded." + std::to_string(subtree),
+                       {reinterpret_cast<const uint8_t*>(positions.data()), positions.size_bytes()});
+    base.push_back(vertices_);
+    border_.emplace_back(border_vertices.begin(), border_vertices.end());
+    for (const Face& f : faces) {
+      face_sum += HashFace({vertices_ + f[0], vertices_ + f[1], vertices_ + f[2]});
+    }
+    vertices_ += positions.size();
+  }
+  void AddSeam(std::span<const SeamFace> faces) override {
+    digest.AddSeam(faces);
+    auto index = [&](const BorderRef& r) { return base[r.subtree] + border_[r.subtree][r.border]; };
+    for (const SeamFace& f : faces) face_sum += HashFace({index(f[0]), index(f[1]), index(f[2])});
+  }
+
+  DigestSink digest;
+  std::vector<uint64_t> base;
+  uint64_t face_sum = 0;
+
+ private:
+  const io::SpillDirectory& spill_;
+  uint64_t vertices_ = 0;
+  std::vector<std::vector<uint32_t>> border_;
+};
+
+/// Compares a decoded file with a scan. The encoder's order of the scan proposes which decoded vertex
+/// each original became; that it is one to one, near enough and carries the faces over is then checked
+/// without trust in the encoder.
+class Comparison {
+ public:
+  Comparison(const FolpFile& file, const std::string& original, const DecodeOptions& options,
+             parallel::Runner& runner, parallel::Progress& progress)
+      : file_(file),
+        runner_(runner),
+        progress_(progress),
+        job_(original, OptionsFor(file, options), runner, progress) {}
+
+  void Run(uint64_t memory_bytes, const std::string& temporary_folder, VerifyReport* report) {
+    const io::FileTable& table = file_.table();
+    if (job_.source().vertex_count() != table.vertices ||
+        job_.source().triangle_count() != table.faces) {
+      report->reason = "the scan has " + std::to_string(job_.source().vertex_count()) +
+                       " vertices and " + std::to_string(job_.source().triangle_count()) +
+                       " faces, the file " + std::to_string(table.vertices) + " and " +
+                       std::to_string(table.faces);
+      return;
+    }
+    job_.UseResolution({file_.lattice(), table.tolerance});
+    job_.Partition();
+    job_.EncodeSubtrees(true);
+    MatchSink sink(job_.spill());
+    DecodeInto(file_.container(), file_.parameters(), Everything(file_), memory_bytes,
+               temporary_folder, runner_, progress_, sink);
+    if (sink.digest.digest() != table.digest) {
+      report->reason = "the decoded mesh differs from the digest in the file";
+      return;
+    }
+    if (!MapFiles(report) || !IsOneToOne(report)) return;
+    ComparePositions(report);
+    if (report->reason.empty()) CompareFaces(sink, report);
+  }
+
+ private:
+  static EncodeOptions OptionsFor(const FolpFile& file, const DecodeOptions& options) {
+    EncodeOptions encode;
+    encode.codec = file.parameters().settings;
+    encode.memory_bytes = options.memory_bytes;
+    encode.temporary_folder = options.temporary_folder;
+    return encode;
+  }
+
+  bool MapFiles(VerifyReport* report) {
+    const io::FileTable& table = file_.table();
+    size_t count = table.vertices == 0 ? 0 : job_.scan().subtree_count();
+    bool alike = count == table.subtrees.size();
+    for (size_t s = 0; alike && s < count; ++s) {
+      alike = job_.scan().summary(s).vertices == table.subtrees[s].vertices;
+    }
+    if (!alike) {
+      report->reason = "the scan falls into other subtrees than the file: it is not the same scan";
+      return false;
+    }
+    for (size_t s = 0; s < count; ++s) {
+      auto open = [&](const char* name) {
+        return io::MappedFile::Open(job_.spill().File(name + std::to_string(s))).value();
+      };
+      order_.push_back(open("order."));
+      decoded_.push_back(open("decoded."));
+    }
+    return true;
+  }
+
+  bool IsOneToOne(VerifyReport* report) const {
+    for (const io::MappedFile& file : order_) {
+      std::span<const uint32_t> order = io::MappedArray<uint32_t>(file);
+      std::vector<bool> taken(order.size(), false);
+      for (uint32_t vertex : order) {
+        if (vertex >= order.size() || taken[vertex]) {
+          report->reason = "the vertices of scan and file do not match one to one";
+          return false;
+        }
+        taken[vertex] = true;
+      }
+    }
+    return true;
+  }
+
+  void DropResident() const {
+    for (const auto& file : order_) file.DropResident();
+    for (const auto& file : decoded_) file.DropResident();
+    job_.source().DropResident();
+  }
+
+  uint32_t FinalVertex(const VertexRef& ref) const {
+    return io::MappedArray<uint32_t>(order_[ref.subtree])[ref.local];
+  }
+
+  void ComparePositions(VerifyReport* report) {
+    const io::MeshSource& source = job_.source();
+    Lattice lattice = file_.lattice();
+    bool as_float = static_cast<io::ScalarType>(file_.table().coordinate_type) ==
+                    io::ScalarType::kFloat32;
+    size_t blocks = source.vertex_block_count();
+    std::vector<double> largest(blocks, 0);
+    progress_.StartStage("compare vertices", blocks);
+    runner_.ForEach(blocks, [&](size_t b) {
+      std::vector<double> xyz;
+      source.ReadVertexBlock(b, &xyz).value();
+      uint64_t first = source.vertex_block_begin(b);
+      for (size_t i = 0; i < xyz.size() / 3; ++i) {
+        const VertexRef& ref = job_.scan().vertex_map()[first + i];
+        const Int3& p = io::MappedArray<Int3>(decoded_[ref.subtree])[FinalVertex(ref)];
+        const int32_t k[3] = {p.x, p.y, p.z};
+        for (int axis = 0; axis < 3; ++axis) {
+          double value = lattice.ToModel(axis, k[axis]);
+          if (as_float) value = static_cast<double>(static_cast<float>(value));
+          double error = std::fabs(value - xyz[3 * i + static_cast<size_t>(axis)]);
+          if (!(error <= largest[b])) largest[b] = error;
+        }
+      }
+      if (b % 64 == 63) DropResident();
+      progress_.Advance(1);
+    });
+    for (double error : largest) report->max_position_error = std::max(report->max_position_error, error);
+    // The last digits of the subtraction itself are no error of the coder.
+    if (!(report->max_position_error <= report->tolerance * (1 + 1e-9))) {
+      report->reason = "a position is off by more than the tolerance";
+    }
+  }
+
+  void CompareFaces(const MatchSink& sink, VerifyReport* report) {
+    const io::MeshSource& source = job_.source();
+    std::atomic<uint64_t> sum{0};
+    size_t blocks = source.triangle_block_count();
+    progress_.StartStage("compare faces", blocks);
+    runner_.ForEach(blocks, [&](size_t b) {
+      std::vector<io::Triangle> triangles;
+      source.ReadTriangleBlock(b, &triangles).value();
+      uint64_t part = 0;
+      for (const io::Triangle& t : triangles) {
+        std::array<uint64_t, 3> face;
+        for (size_t i = 0; i < 3; ++i) {
+          const VertexRef& ref = job_.scan().vertex_map()[t[i]];
+          face[i] = sink.base[ref.subtree] + FinalVertex(ref);
+        }
+        part += HashFace(face);
+      }
+      sum += part;
+      if (b % 64 == 63) DropResident();
+      progress_.Advance(1);
+    });
+    if (sum != sink.face_sum) report->reason = "the faces of scan and file differ";
+  }
+
+  const FolpFile& file_;
+  parallel::Runner& runner_;
+  parallel::Progress& progress_;
+  EncodeJob job_;
+  std::vector<io::MappedFile> order_, decoded_;
+};
+
+void CompareDigest(const FolpFile& file, const DecodeOptions& options, parallel::Runner& runner,
+                   parallel::Progress& progress, VerifyReport* report) {
+  const io::FileTable& table = file.table();
+  DigestSink sink;
+  DecodeInto(file.container(), file.parameters(), Everything(file), options.memory_bytes,
+             options.temporary_folder, runner, progress, sink);
+  if (sink.vertices() != table.vertices || sink.faces() != table.faces) {
+    report->reason = "decoded counts differ from those of the table";
+  } else if (sink.digest() != table.digest) {
+    report->reason = "the decoded mesh differs from the digest in the file";
+  }
+}
+
+}  // namespace
+
+Result<VerifyReport> VerifyFile(const std::string& input, const std::string& original,
+                                const DecodeOptions& options, parallel::Runner& runner,
+                                parallel::Progress& progress) {
+  return RunGuarded<VerifyReport>([&] {
+    FolpFile file(input);
+    VerifyReport report;
+    report.vertices = file.table().vertices;
+    report.faces = file.table().faces;
+    report.tolerance = file.table().tolerance;
+    report.against = !original.empty();
+    size_t present = file.container().complete_layers(), all = file.table().layers.size();
+    if (present < all) {
+      report.reason = "the file is cut: " + std::to_string(present) + " of " + std::to_string(all) +
+                      " layers are whole";
+    } else if (original.empty()) {
+      CompareDigest(file, options, runner, progress, &report);
+    } else {
+      Comparison(file, original, options, runner, progress)
+          .Run(options.memory_bytes, options.temporary_folder, &report);
+    }
+    report.lossless = report.reason.empty();
+    return report;
+  });
+}
+
+}  // namespace folprom

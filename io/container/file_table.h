@@ -1,0 +1,72 @@
+// What stands before the coded bits of a .folp file: settings, counts, layers, sizes, checksums.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace folprom::io {
+
+inline constexpr uint32_t kFormatVersion = 1;       ///< written, and the newest that is read
+inline constexpr size_t kMaxLayers = 4096;
+inline constexpr uint64_t kMaxCount = (uint64_t{1} << 48) - 1;  ///< of vertices, and of faces
+inline constexpr uint64_t kMaxSegmentBytes = 0xffffffffu;       ///< of one segment
+
+/// Kinds of coded bits that `info` tells apart.
+enum class BitKind : uint8_t {
+  kSplit = 0, kOffsets, kRefinement, kConnectivity, kExceptions, kSeams
+};
+inline constexpr size_t kBitKinds = 6;
+
+/// Order-free digest of the decoded mesh: sums of hashes over vertices and over faces (mod 2^64).
+struct MeshDigest {
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+  bool operator==(const MeshDigest&) const = default;
+};
+
+/// One layer over all subtrees. Layers 0 .. k together give one LOD.
+struct LayerRecord {
+  float error_bound = 0;  ///< model units; no original vertex lies further from its representative
+  uint64_t vertices = 0;  ///< of the LOD after this layer; never fewer than after the one before
+  uint64_t faces = 0;     ///< of the LOD after this layer
+  bool operator==(const LayerRecord&) const = default;
+};
+
+struct SubtreeRecord {
+  uint32_t vertices = 0;  ///< of the original mesh
+  std::array<int32_t, 3> box_lo{};  ///< working lattice
+  std::array<int32_t, 3> box_hi{};
+  /// Subtrees of lower number that share a face with it, ascending.
+  std::vector<uint32_t> lower_neighbours;
+  bool operator==(const SubtreeRecord&) const = default;
+};
+
+/// A segment is named by (layer, subtree, part).
+enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
+
+/// Everything in the table. Coded compactly; see FORMAT.md.
+struct FileTable {
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+  uint8_t coordinate_type = 0;        ///< io::ScalarType of the output
+  std::array<double, 3> origin{};     ///< lattice
+  double unit = 1;                    ///< lattice
+  std::array<int32_t, 3> extent{};    ///< lattice, 0 .. 2^30 - 1
+  double tolerance = 0;               ///< model units, per axis
+  std::vector<uint8_t> codec;         ///< settings of the coder, meaning known to the engine only
+  MeshDigest digest;
+  std::array<uint64_t, kBitKinds> kind_bits{};  ///< bits spent per kind, whole file, rounded
+  std::vector<LayerRecord> layers;
+  std::vector<SubtreeRecord> subtrees;
+  /// Size in bytes of each segment, index SegmentIndex(layer, subtree, part).
+  std::vector<uint64_t> segment_bytes;
+
+  size_t SegmentIndex(size_t layer, size_t subtree, SegmentPart part) const {
+    return (layer * subtrees.size() + subtree) * 2 + static_cast<size_t>(part);
+  }
+  bool operator==(const FileTable&) const = default;
+};
+
+}  // namespace folprom::io

@@ -1,0 +1,95 @@
+#include "io/container/reader.h"
+
+#include <algorithm>
+#include <new>
+
+#include "io/container/byte_code.h"
+#include "io/container/checksum.h"
+#include "io/container/header.h"
+#include "io/container/table_code.h"
+
+namespace folprom::io {
+namespace {
+
+std::string PlaceOf(size_t layer, size_t subtree, SegmentPart part) {
+  return ": layer " + std::to_string(layer) + ", subtree " + std::to_string(subtree) +
+         (part == SegmentPart::kInner ? ", inner segment: " : ", seam segment: ");
+}
+
+}  // namespace
+
+Result<ContainerReader> ContainerReader::Open(std::span<const uint8_t> bytes, std::string name) {
+  try {
+    ContainerReader reader;
+    reader.Load(bytes, name);
+    return reader;
+  } catch (const Failure& failure) {
+    return failure.error();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::kLimit, name + ": too little memory for the table"};
+  }
+}
+
+void ContainerReader::Load(std::span<const uint8_t> bytes, std::string name) {
+  bytes_ = bytes;
+  name_ = std::move(name);
+  const auto coded = TableBytes(bytes, name_);
+  table_ = DecodeTable(coded, name_, kTableBegin);
+  table_bytes_ = kTableBegin + coded.size() + kChecksumBytes;
+  layout_ = LayoutOf(table_, table_bytes_);
+  if (bytes.size() > file_bytes()) {
+    throw Failure(ErrorKind::kCorrupt, name_ + ": " +
+                                           std::to_string(bytes.size() - file_bytes()) +
+                                           " bytes after the end at byte " +
+                                           std::to_string(file_bytes()));
+  }
+  const auto& ends = layout_.layer_end;
+  complete_layers_ = static_cast<size_t>(
+      std::upper_bound(ends.begin(), ends.end(), uint64_t{bytes.size()}) - ends.begin());
+  verified_.reset(new std::atomic<bool>[layout_.groups.size()]());
+}
+
+size_t ContainerReader::GroupOf(uint64_t position) const {
+  const auto& groups = layout_.groups;
+  const auto after = std::upper_bound(
+      groups.begin(), groups.end(), position,
+      [](uint64_t wanted, const ChecksumGroup& group) { return wanted < group.begin; });
+  return static_cast<size_t>(after - groups.begin()) - 1;
+}
+
+bool ContainerReader::Intact(size_t group) const {
+  if (verified_[group].load(std::memory_order_relaxed)) return true;
+  const auto [begin, end] = layout_.groups[group];
+  if (XxHash64(bytes_.subspan(begin, end - begin)) !=
+      LoadLittleEndian<uint64_t>(bytes_.data() + end)) {
+    return false;
+  }
+  verified_[group].store(true, std::memory_order_relaxed);
+  return true;
+}
+
+Result<std::span<const uint8_t>> ContainerReader::Segment(size_t layer, size_t subtree,
+                                                          SegmentPart part) const {
+  if (layer >= table_.layers.size() || subtree >= table_.subtrees.size()) {
+    return Error{ErrorKind::kInternal, name_ + PlaceOf(layer, subtree, part) + "does not exist"};
+  }
+  const size_t index = table_.SegmentIndex(layer, subtree, part);
+  const uint64_t begin = layout_.segment_begin[index];
+  const uint64_t size = table_.segment_bytes[index];
+  if (size == 0) return std::span<const uint8_t>();
+  const size_t group = GroupOf(begin);
+  const auto [group_begin, group_end] = layout_.groups[group];
+  if (group_end + kChecksumBytes > bytes_.size()) {
+    return Error{ErrorKind::kCorrupt,
+                 name_ + PlaceOf(layer, subtree, part) + "the file is cut at byte " +
+                     std::to_string(bytes_.size()) + " of " + std::to_string(file_bytes())};
+  }
+  if (!Intact(group)) {
+    return Error{ErrorKind::kCorrupt, name_ + PlaceOf(layer, subtree, part) +
+                                          "checksum of bytes " + std::to_string(group_begin) +
+                                          " to " + std::to_string(group_end) + " differs"};
+  }
+  return bytes_.subspan(begin, size);
+}
+
+}  // namespace folprom::io

@@ -1,0 +1,59 @@
+// Reads a .folp file from a span of bytes. C++ standard library and xxHash only.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "folprom/result.h"
+#include "io/container/file_table.h"
+#include "io/container/layout.h"
+
+namespace folprom::io {
+
+/// A .folp file, whole or cut. Thread-safe after Open. Does not own the bytes. Copies share what
+/// they know to be undamaged.
+class ContainerReader {
+ public:
+  /// `bytes` must outlive the reader. `name` is used in messages. kCorrupt: cut inside the header
+  /// (also empty), checksum of the table wrong, counts that contradict each other or the bytes that
+  /// are left, or bytes after the announced end. kInput: not a .folp file, or a format version that
+  /// this program does not know. kLimit: too little memory for the table.
+  /// Reads the bytes of the header only, so a mapped file stays on disk.
+  static Result<ContainerReader> Open(std::span<const uint8_t> bytes, std::string name);
+
+  const FileTable& table() const { return table_; }
+  /// Layers whose segments and checksums are all inside the bytes (a cut file has fewer than the
+  /// table).
+  size_t complete_layers() const { return complete_layers_; }
+  /// The bytes of one segment, verified by the checksum of its group (once per group; an empty
+  /// segment has none). kCorrupt when it differs or lies beyond the end.
+  Result<std::span<const uint8_t>> Segment(size_t layer, size_t subtree, SegmentPart part) const;
+
+  /// Byte position of the end of layer k < table().layers.size() (bytes needed to decode layers
+  /// 0 .. k).
+  uint64_t LayerEnd(size_t layer) const { return layout_.layer_end[layer]; }
+  uint64_t table_bytes() const { return table_bytes_; }  ///< magic, table and its checksum
+  uint64_t checksum_bytes() const { return layout_.checksum_bytes; }  ///< checksums of segments
+  uint64_t file_bytes() const { return layout_.file_bytes; }  ///< whole file as the table announces
+
+ private:
+  ContainerReader() = default;
+  void Load(std::span<const uint8_t> bytes, std::string name);
+  size_t GroupOf(uint64_t position) const;
+  bool Intact(size_t group) const;
+
+  std::span<const uint8_t> bytes_;
+  std::string name_;
+  FileTable table_;
+  size_t complete_layers_ = 0;
+  uint64_t table_bytes_ = 0;
+  FileLayout layout_;
+  /// Groups found undamaged. Two threads may find the same at once; no other memory depends on it.
+  std::shared_ptr<std::atomic<bool>[]> verified_;
+};
+
+}  // namespace folprom::io

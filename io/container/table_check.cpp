@@ -1,0 +1,102 @@
+// The rules between the fields of a table, the same for what is written and what is read.
+#include <cmath>
+
+#include "io/container/table_code.h"
+
+namespace folprom::io {
+namespace {
+
+constexpr int32_t kMaxCoordinate = (1 << 30) - 1;
+constexpr uint8_t kScalarTypes = 8;
+constexpr uint64_t kMaxSum = uint64_t{1} << 62;
+
+std::string LatticeFault(const FileTable& table) {
+  if (table.coordinate_type >= kScalarTypes) {
+    return "coordinate type " + std::to_string(table.coordinate_type) + " unknown";
+  }
+  for (const double origin : table.origin) {
+    if (!std::isfinite(origin)) return "origin of the lattice not finite";
+  }
+  if (!std::isfinite(table.unit) || table.unit <= 0) return "unit of the lattice not above 0";
+  for (const int32_t extent : table.extent) {
+    if (extent < 0 || extent > kMaxCoordinate) return "extent of the lattice not below 2^30";
+  }
+  if (!std::isfinite(table.tolerance) || table.tolerance < 0) return "tolerance not 0 or above";
+  return {};
+}
+
+std::string LayersFault(const FileTable& table) {
+  if (table.layers.size() > kMaxLayers) return "more than 4096 layers";
+  uint64_t before = 0;
+  for (size_t i = 0; i < table.layers.size(); ++i) {
+    const LayerRecord& layer = table.layers[i];
+    const std::string place = "layer " + std::to_string(i) + ": ";
+    if (!std::isfinite(layer.error_bound) || layer.error_bound < 0) {
+      return place + "error bound not 0 or above";
+    }
+    if (layer.vertices < before) return place + "fewer vertices than in the layer before";
+    if (layer.vertices > table.vertices) return place + "more vertices than the mesh has";
+    if (layer.faces > kMaxCount) return place + "number of faces beyond 2^48";
+    before = layer.vertices;
+  }
+  return {};
+}
+
+std::string SubtreeFault(const SubtreeRecord& subtree, size_t number, const FileTable& table) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (subtree.box_lo[axis] < 0 || subtree.box_hi[axis] > table.extent[axis]) {
+      return "box outside the extent";
+    }
+    if (subtree.box_lo[axis] > subtree.box_hi[axis]) return "box turned inside out";
+  }
+  uint64_t least = 0;
+  for (const uint32_t neighbour : subtree.lower_neighbours) {
+    if (neighbour >= number) return "lower neighbour not below its subtree";
+    if (neighbour < least) return "lower neighbours not ascending";
+    least = uint64_t{neighbour} + 1;
+  }
+  return {};
+}
+
+std::string SubtreesFault(const FileTable& table) {
+  if (table.subtrees.size() > UINT32_MAX) return "2^32 subtrees or more";
+  uint64_t vertices = 0;
+  for (size_t i = 0; i < table.subtrees.size(); ++i) {
+    const std::string fault = SubtreeFault(table.subtrees[i], i, table);
+    if (!fault.empty()) return "subtree " + std::to_string(i) + ": " + fault;
+    vertices += table.subtrees[i].vertices;
+  }
+  if (vertices != table.vertices) {
+    return "the subtrees have " + std::to_string(vertices) + " vertices, the mesh " +
+           std::to_string(table.vertices);
+  }
+  return {};
+}
+
+std::string SegmentsFault(const FileTable& table) {
+  if (table.segment_bytes.size() != table.layers.size() * table.subtrees.size() * 2) {
+    return "number of segment sizes is not layers x subtrees x 2";
+  }
+  uint64_t sum = 0;
+  for (const uint64_t bytes : table.segment_bytes) {
+    if (bytes > kMaxSegmentBytes) return "a segment of 2^32 bytes or more";
+    sum += bytes;
+    if (sum > kMaxSum) return "sizes of the segments overflow";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string TableFault(const FileTable& table) {
+  if (table.vertices > kMaxCount || table.faces > kMaxCount) {
+    return "2^48 vertices or faces, or more";
+  }
+  for (const auto& fault : {LatticeFault(table), LayersFault(table), SubtreesFault(table),
+                            SegmentsFault(table)}) {
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
+}  // namespace folprom::io

@@ -1,0 +1,149 @@
+#include "io/container/table_code.h"
+
+#include "folprom/result.h"
+#include "io/container/byte_code.h"
+#include "io/container/size_code.h"
+
+namespace folprom::io {
+namespace {
+
+constexpr uint64_t kMaxCoordinate = (uint64_t{1} << 30) - 1;
+// Fewest bytes of a record: float, two varints; varint, box of six, neighbour count.
+constexpr uint64_t kLeastLayerBytes = 6;
+constexpr uint64_t kLeastSubtreeBytes = 8;
+
+void WriteLayers(const FileTable& table, ByteWriter* out) {
+  LayerRecord before;
+  for (const LayerRecord& layer : table.layers) {
+    out->F32(layer.error_bound);
+    const uint64_t more_vertices = layer.vertices - before.vertices;
+    out->Varint(more_vertices);
+    // A closed surface has twice as many faces as vertices.
+    out->Varint(ZigZag(layer.faces - before.faces - 2 * more_vertices));
+    before = layer;
+  }
+}
+
+void ReadLayers(ByteReader* in, FileTable* table) {
+  LayerRecord before;
+  for (LayerRecord& layer : table->layers) {
+    layer.error_bound = in->F32();
+    const uint64_t more_vertices =
+        in->VarintUpTo(table->vertices - before.vertices, "growth of a layer's vertices");
+    layer.vertices = before.vertices + more_vertices;
+    layer.faces = before.faces + 2 * more_vertices + UnZigZag(in->Varint());
+    if (layer.faces > kMaxCount) in->Fail("number of a layer's faces negative or beyond 2^48");
+    before = layer;
+  }
+}
+
+void WriteSubtree(const SubtreeRecord& subtree, ByteWriter* out) {
+  out->Varint(subtree.vertices);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    out->Varint(static_cast<uint64_t>(subtree.box_lo[axis]));
+    out->Varint(static_cast<uint64_t>(subtree.box_hi[axis] - subtree.box_lo[axis]));
+  }
+  out->Varint(subtree.lower_neighbours.size());
+  uint64_t least = 0;
+  for (const uint32_t neighbour : subtree.lower_neighbours) {
+    out->Varint(neighbour - least);
+    least = uint64_t{neighbour} + 1;
+  }
+}
+
+SubtreeRecord ReadSubtree(size_t number, const FileTable& table, ByteReader* in) {
+  SubtreeRecord subtree;
+  subtree.vertices = static_cast<uint32_t>(in->VarintUpTo(UINT32_MAX, "number of vertices"));
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto extent = static_cast<uint64_t>(table.extent[axis]);
+    const uint64_t lo = in->VarintUpTo(extent, "lower corner of a box");
+    const uint64_t hi = lo + in->VarintUpTo(extent - lo, "side of a box");
+    subtree.box_lo[axis] = static_cast<int32_t>(lo);
+    subtree.box_hi[axis] = static_cast<int32_t>(hi);
+  }
+  const uint64_t count = in->VarintUpTo(number, "number of lower neighbours");
+  if (count > in->left()) in->Fail("more neighbours than bytes left");
+  subtree.lower_neighbours.resize(count);
+  uint64_t least = 0;
+  for (uint32_t& neighbour : subtree.lower_neighbours) {
+    if (least >= number) in->Fail("lower neighbour not below its subtree");
+    least += in->VarintUpTo(number - 1 - least, "step to the next lower neighbour");
+    neighbour = static_cast<uint32_t>(least++);
+  }
+  return subtree;
+}
+
+/// Layers, subtrees and sizes, none of which may claim more than the bytes left can hold.
+void ReadCounts(ByteReader* in, FileTable* table) {
+  const uint64_t layers = in->VarintUpTo(kMaxLayers, "number of layers");
+  const uint64_t subtrees = in->VarintUpTo(UINT32_MAX, "number of subtrees");
+  const uint64_t records = layers * kLeastLayerBytes + subtrees * kLeastSubtreeBytes;
+  const uint64_t size_bytes = (LeastSizeBits(layers, subtrees) + 7) / 8;
+  if (records + size_bytes > in->left()) {
+    in->Fail(std::to_string(layers) + " layers of " + std::to_string(subtrees) +
+             " subtrees need at least " + std::to_string(records + size_bytes) +
+             " bytes of table, " + std::to_string(in->left()) + " are left");
+  }
+  table->layers.resize(layers);
+  table->subtrees.resize(subtrees);
+}
+
+}  // namespace
+
+std::vector<uint8_t> EncodeTable(const FileTable& table) {
+  const std::string fault = TableFault(table);
+  if (!fault.empty()) throw Failure(ErrorKind::kInternal, "table to write: " + fault);
+  ByteWriter out;
+  out.Varint(table.vertices);
+  out.Varint(table.faces);
+  out.U8(table.coordinate_type);
+  for (const double origin : table.origin) out.F64(origin);
+  out.F64(table.unit);
+  for (const int32_t extent : table.extent) out.Varint(static_cast<uint64_t>(extent));
+  out.F64(table.tolerance);
+  out.Varint(table.codec.size());
+  out.Bytes(table.codec);
+  out.U64(table.digest.vertices);
+  out.U64(table.digest.faces);
+  for (const uint64_t bits : table.kind_bits) out.Varint(bits);
+  out.Varint(table.layers.size());
+  out.Varint(table.subtrees.size());
+  WriteLayers(table, &out);
+  for (const SubtreeRecord& subtree : table.subtrees) WriteSubtree(subtree, &out);
+  WriteSizes(table.segment_bytes, table.layers.size(), table.subtrees.size(), &out);
+  return std::move(out).Take();
+}
+
+FileTable DecodeTable(std::span<const uint8_t> bytes, std::string_view file, uint64_t offset) {
+  ByteReader in(bytes, file, offset);
+  FileTable table;
+  table.vertices = in.VarintUpTo(kMaxCount, "number of vertices");
+  table.faces = in.VarintUpTo(kMaxCount, "number of faces");
+  table.coordinate_type = in.U8();
+  for (double& origin : table.origin) origin = in.F64();
+  table.unit = in.F64();
+  for (int32_t& extent : table.extent) {
+    extent = static_cast<int32_t>(in.VarintUpTo(kMaxCoordinate, "extent of the lattice"));
+  }
+  table.tolerance = in.F64();
+  const auto codec = in.Bytes(in.VarintUpTo(in.left(), "length of the coder's settings"));
+  table.codec.assign(codec.begin(), codec.end());
+  table.digest.vertices = in.U64();
+  table.digest.faces = in.U64();
+  for (uint64_t& bits : table.kind_bits) bits = in.Varint();
+  ReadCounts(&in, &table);
+  ReadLayers(&in, &table);
+  for (size_t i = 0; i < table.subtrees.size(); ++i) {
+    table.subtrees[i] = ReadSubtree(i, table, &in);
+  }
+  // The records may have taken more than their least, so the sizes are checked again.
+  const uint64_t size_bits = LeastSizeBits(table.layers.size(), table.subtrees.size());
+  if (size_bits > uint64_t{8} * in.left()) in.Fail("fewer bytes left than the segment sizes need");
+  table.segment_bytes = ReadSizes(table.layers.size(), table.subtrees.size(), &in);
+  if (in.left() > 0) in.Fail(std::to_string(in.left()) + " bytes after the segment sizes");
+  const std::string fault = TableFault(table);
+  if (!fault.empty()) throw Failure(ErrorKind::kCorrupt, std::string(file) + ": table: " + fault);
+  return table;
+}
+
+}  // namespace folprom::io

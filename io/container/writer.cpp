@@ -1,0 +1,127 @@
+#include "io/container/writer.h"
+
+#include <string>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "io/container/byte_code.h"
+#include "io/container/header.h"
+#include "io/container/layout.h"
+
+namespace folprom::io {
+namespace {
+
+constexpr size_t kBufferBytes = 256 * 1024;
+
+/// Gathers small pieces, since most segments are far smaller than what a file likes to be given.
+class BufferedFile {
+ public:
+  explicit BufferedFile(AtomicFile* file) : file_(file) { buffer_.reserve(kBufferBytes); }
+
+  void Append(std::span<const uint8_t> bytes) {
+    if (buffer_.size() + bytes.size() > kBufferBytes) Flush();
+    if (bytes.size() > kBufferBytes) {
+      file_->Append(bytes).value();
+    } else {
+      buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+    }
+  }
+  void Flush() {
+    if (!buffer_.empty()) file_->Append(buffer_).value();
+    buffer_.clear();
+  }
+
+ private:
+  AtomicFile* file_;
+  std::vector<uint8_t> buffer_;
+};
+
+class Memory {
+ public:
+  void Reserve(uint64_t bytes) { bytes_.reserve(bytes); }
+  void Append(std::span<const uint8_t> bytes) {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  std::vector<uint8_t> Take() { return std::move(bytes_); }
+
+ private:
+  std::vector<uint8_t> bytes_;
+};
+
+/// XXH3 over a group whose bytes come segment by segment.
+class GroupHash {
+ public:
+  GroupHash() { XXH3_64bits_reset(&state_); }
+  void Add(std::span<const uint8_t> bytes) {
+    XXH3_64bits_update(&state_, bytes.data(), bytes.size());
+  }
+  /// The checksum as it stands in the file; begins the next group.
+  std::vector<uint8_t> Close() {
+    std::vector<uint8_t> bytes;
+    AppendLittleEndian(uint64_t{XXH3_64bits_digest(&state_)}, &bytes);
+    XXH3_64bits_reset(&state_);
+    return bytes;
+  }
+
+ private:
+  XXH3_state_t state_;
+};
+
+std::span<const uint8_t> CheckedSegment(const FileTable& table, const SegmentBytes& segment,
+                                        size_t layer, size_t subtree, SegmentPart part) {
+  const auto bytes = segment(layer, subtree, part);
+  const uint64_t announced = table.segment_bytes[table.SegmentIndex(layer, subtree, part)];
+  if (bytes.size() == announced) return bytes;
+  throw Failure(ErrorKind::kInternal,
+                "segment of layer " + std::to_string(layer) + ", subtree " +
+                    std::to_string(subtree) +
+                    (part == SegmentPart::kInner ? ", inner has " : ", seam has ") +
+                    std::to_string(bytes.size()) + " bytes, the table says " +
+                    std::to_string(announced));
+}
+
+template <class Out>
+uint64_t WriteTo(const std::vector<uint8_t>& header, const FileLayout& layout,
+                 const FileTable& table, const SegmentBytes& segment, Out* out) {
+  out->Append(header);
+  uint64_t at = header.size();
+  GroupHash hash;
+  auto group = layout.groups.begin();
+  for (size_t layer = 0; layer < table.layers.size(); ++layer) {
+    for (size_t subtree = 0; subtree < table.subtrees.size(); ++subtree) {
+      for (const SegmentPart part : {SegmentPart::kInner, SegmentPart::kSeam}) {
+        const auto bytes = CheckedSegment(table, segment, layer, subtree, part);
+        out->Append(bytes);
+        hash.Add(bytes);
+        at += bytes.size();
+        if (bytes.empty() || at < group->end) continue;
+        out->Append(hash.Close());
+        at += kChecksumBytes;
+        ++group;
+      }
+    }
+  }
+  return at;
+}
+
+}  // namespace
+
+uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out) {
+  const std::vector<uint8_t> header = EncodeHeader(table);
+  BufferedFile file(&out);
+  const uint64_t bytes = WriteTo(header, LayoutOf(table, header.size()), table, segment, &file);
+  file.Flush();
+  return bytes;
+}
+
+std::vector<uint8_t> WriteContainerToMemory(const FileTable& table, const SegmentBytes& segment) {
+  const std::vector<uint8_t> header = EncodeHeader(table);
+  const FileLayout layout = LayoutOf(table, header.size());
+  Memory memory;
+  memory.Reserve(layout.file_bytes);
+  WriteTo(header, layout, table, segment, &memory);
+  return memory.Take();
+}
+
+}  // namespace folprom::io

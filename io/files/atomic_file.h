@@ -1,0 +1,29 @@
+// An output file that appears complete or not at all.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "folprom/result.h"
+
+namespace folprom::io {
+
+/// Writes to a hidden temporary file beside the target; Commit syncs it, renames it over the target
+/// and syncs the folder. Destroyed before Commit, it removes the temporary file and leaves the old
+/// output as it was. All errors are kOutput and name path and reason.
+class AtomicFile {
+ public:
+  /// Fails when the target exists and `force` is false, is a directory, or its folder is missing or
+  /// not writable.
+  static Result<std::unique_ptr<AtomicFile>> Create(const std::string& path, bool force);
+  virtual ~AtomicFile() = default;
+  /// Appends at the end of what was appended so far.
+  virtual Result<void> Append(std::span<const uint8_t> bytes) = 0;
+  /// Writes at an absolute offset; does not move the append position.
+  virtual Result<void> WriteAt(uint64_t offset, std::span<const uint8_t> bytes) = 0;
+  virtual Result<void> Commit() = 0;
+};
+
+}  // namespace folprom::io

@@ -1,0 +1,55 @@
+#include "io/files/mapped_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "io/files/posix.h"
+
+namespace folprom::io {
+
+Result<MappedFile> MappedFile::Open(const std::string& path) {
+  try {
+    // Without O_NONBLOCK a named pipe with no writer would block here for ever.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (!file.open()) ThrowSystemError(ErrorKind::kInput, path, "cannot open");
+    struct stat status {};
+    if (::fstat(file.get(), &status) != 0) {
+      ThrowSystemError(ErrorKind::kInput, path, "cannot read its status");
+    }
+    if (!S_ISREG(status.st_mode)) {
+      const char* reason = S_ISDIR(status.st_mode) ? "is a directory" : "is not a regular file";
+      return Error{ErrorKind::kInput, path + ": " + reason};
+    }
+
+    MappedFile mapped;
+    mapped.path_ = path;
+    if (status.st_size == 0) return mapped;
+    const auto size = static_cast<size_t>(status.st_size);
+    void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
+    if (data == MAP_FAILED) ThrowSystemError(ErrorKind::kInput, path, "cannot map into memory");
+    mapped.data_ = static_cast<const uint8_t*>(data);
+    mapped.size_ = size;
+    return mapped;
+  } catch (const Failure& failure) {
+    return failure.error();
+  }
+}
+
+MappedFile::~MappedFile() {
+  if (data_ != nullptr) ::munmap(const_cast<uint8_t*>(data_), size_);
+}
+
+void MappedFile::DropResident(size_t begin, size_t end) const {
+  static const size_t page = static_cast<size_t>(::sysconf(_SC_PAGESIZE));
+  end = std::min(end, size_);
+  begin = begin / page * page;
+  if (begin >= end) return;
+  // A hint: where the kernel declines, only the resident size differs.
+  ::madvise(const_cast<uint8_t*>(data_) + begin, end - begin, MADV_DONTNEED);
+}
+
+}  // namespace folprom::io

@@ -1,0 +1,64 @@
+#include "io/files/posix.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <limits>
+#include <system_error>
+
+namespace folprom::io {
+namespace {
+
+// One system call takes at most 2 GiB; smaller pieces keep a cancelled job responsive.
+constexpr size_t kPiece = size_t{1} << 28;
+
+template <class Write>
+void WritePieces(std::span<const uint8_t> bytes, const std::string& path, Write write) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(bytes.data(), std::min(bytes.size(), kPiece));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) ThrowSystemError(ErrorKind::kOutput, path, "cannot write");
+    if (written == 0) {
+      throw Failure(ErrorKind::kOutput, path + ": cannot write: the system took no bytes");
+    }
+    bytes = bytes.subspan(static_cast<size_t>(written));
+  }
+}
+
+}  // namespace
+
+Descriptor::~Descriptor() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+void Descriptor::CloseChecked(const std::string& path) {
+  // After EINTR the descriptor is closed on Linux: closing again could hit another thread's file.
+  if (::close(std::exchange(fd_, -1)) != 0 && errno != EINTR) {
+    ThrowSystemError(ErrorKind::kOutput, path, "cannot close");
+  }
+}
+
+void ThrowSystemError(ErrorKind kind, const std::string& path, const char* what) {
+  const int code = errno;
+  throw Failure(kind, path + ": " + what + ": " + std::generic_category().message(code));
+}
+
+void WriteAll(int fd, std::span<const uint8_t> bytes, const std::string& path) {
+  WritePieces(bytes, path,
+              [fd](const uint8_t* data, size_t size) { return ::write(fd, data, size); });
+}
+
+void WriteAllAt(int fd, uint64_t offset, std::span<const uint8_t> bytes, const std::string& path) {
+  constexpr uint64_t kLast = static_cast<uint64_t>(std::numeric_limits<off_t>::max());
+  if (offset > kLast || bytes.size() > kLast - offset) {
+    throw Failure(ErrorKind::kOutput, path + ": cannot write: beyond the largest file size");
+  }
+  WritePieces(bytes, path, [fd, &offset](const uint8_t* data, size_t size) {
+    const ssize_t written = ::pwrite(fd, data, size, static_cast<off_t>(offset));
+    if (written > 0) offset += static_cast<uint64_t>(written);
+    return written;
+  });
+}
+
+}  // namespace folprom::io

@@ -1,0 +1,66 @@
+// A scan file as the engine sees it: blocks of positions and blocks of triangles, any format.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "folprom/result.h"
+
+namespace folprom::io {
+
+enum class ScalarType : uint8_t {
+  kInt8 = 0, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64
+};
+
+/// Three vertex indices of the file, in the order of the file.
+using Triangle = std::array<uint64_t, 3>;
+
+/// Things that were read but not kept as they were; each is worth a warning.
+struct SourceNotes {
+  uint64_t polygons_triangulated = 0;  ///< faces of more than three corners, split as a fan
+  uint64_t polygons_dropped = 0;       ///< faces of fewer than three corners
+  uint64_t strips = 0;                 ///< triangle strips unrolled
+  std::vector<std::string> ignored_properties;  ///< vertex/face properties not coded, "element.name"
+};
+
+/// A scan file, mapped into memory and parsed on demand. Thread-safe after Open: every Read may be
+/// called from several threads at once. Errors name the file, the element and the place.
+class MeshSource {
+ public:
+  virtual ~MeshSource() = default;
+
+  /// Opens by content ("ply" magic). Checks the header and walks the variable-length records once,
+  /// so that truncation and bad counts are found here (kInput), and indexes the blocks.
+  static Result<std::unique_ptr<MeshSource>> Open(const std::string& path);
+
+  virtual const std::string& path() const = 0;
+  virtual uint64_t vertex_count() const = 0;
+  /// Exact number of triangles that all blocks give together.
+  virtual uint64_t triangle_count() const = 0;
+  /// Type of the coordinates in the file (the widest of x, y, z).
+  virtual ScalarType coordinate_type() const = 0;
+
+  virtual size_t vertex_block_count() const = 0;
+  /// Index of the first vertex of a block; vertex_block_begin(vertex_block_count()) is
+  /// vertex_count(). A block holds at most 65,536 vertices.
+  virtual uint64_t vertex_block_begin(size_t block) const = 0;
+  /// Replaces *xyz by the block's positions, three doubles a vertex. kInput where a value does not
+  /// parse. NaN and infinity are passed on.
+  virtual Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const = 0;
+
+  virtual size_t triangle_block_count() const = 0;
+  /// Replaces *triangles by the block's triangles (at most about 65,536, more only for one huge
+  /// polygon). kInput, with the face's index, where an index is negative or not below vertex_count().
+  virtual Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const = 0;
+
+  virtual const SourceNotes& notes() const = 0;
+
+  /// Tells the kernel that the resident pages of the mapping may go (they stay in its cache). The
+  /// resident size of a pass over the file is then bounded by what lies between two calls.
+  virtual void DropResident() const = 0;
+};
+
+}  // namespace folprom::io

@@ -1,0 +1,216 @@
+#include "io/formats/ply_blocks.h"
+
+#include <algorithm>
+#include <string>
+
+#include "io/formats/ply_ascii_cursor.h"
+#include "io/formats/ply_binary_cursor.h"
+
+namespace folprom::io {
+namespace {
+
+constexpr uint64_t kResidentBytes = uint64_t{32} << 20;
+
+template <class Cursor>
+class BlockIndexer {
+ public:
+  BlockIndexer(const MappedFile& file, const PlyHeader& header, const PlyLayout& layout)
+      : file_(file), layout_(layout), position_{header.data_begin, header.line_count + 1} {}
+
+  PlyBlocks Index() {
+    for (plan_index_ = 0; plan_index_ < layout_.elements.size(); ++plan_index_) {
+      const PlyElementPlan& plan = layout_.elements[plan_index_];
+      CheckCount(plan);
+      Cursor cursor(file_.bytes(), position_, PlyPlace{&file_.path(), plan.element, 0});
+      if (plan.role == PlyRole::kFaces || plan.role == PlyRole::kStrips) {
+        WalkTriangles(plan, cursor);
+      } else {
+        WalkRecords(plan, cursor);
+      }
+      position_ = cursor.position();
+    }
+    return std::move(blocks_);
+  }
+
+ private:
+  // Before any step: a count may announce more than any file can hold.
+  void CheckCount(const PlyElementPlan& plan) const {
+    const uint64_t left = file_.bytes().size() - position_.offset;
+    // Text needs a character and a blank for each value; the last blank may be missing.
+    const uint64_t most = Cursor::kFixedSizes ? left / plan.smallest_record
+                                              : (left + 1) / (2 * plan.element->properties.size());
+    if (plan.element->count <= most) return;
+    throw Failure(ErrorKind::kInput, file_.path() + ": element " + plan.element->name + ": " +
+                                         std::to_string(plan.element->count) +
+                                         " records are announced, but the " + std::to_string(left) +
+                                         " bytes that are left hold at most " +
+                                         std::to_string(most));
+  }
+
+  void WalkRecords(const PlyElementPlan& plan, Cursor& cursor) {
+    const uint64_t count = plan.element->count;
+    for (uint64_t begin = 0; begin < count; begin += kPlyBlockVertices) {
+      if (plan.role == PlyRole::kVertices) blocks_.vertices.push_back(cursor.position());
+      SkipRecords(plan, cursor, begin, std::min(count - begin, kPlyBlockVertices));
+    }
+  }
+
+  void SkipRecords(const PlyElementPlan& plan, Cursor& cursor, uint64_t begin, uint64_t count) {
+    if constexpr (Cursor::kFixedSizes) {
+      if (!plan.has_lists) {
+        cursor.Take(count, plan.smallest_record);
+        return;
+      }
+    }
+    for (uint64_t record = begin; record < begin + count; ++record) {
+      cursor.BeginRecord(record);
+      for (const PlyProperty& property : plan.element->properties) SkipProperty(property, cursor);
+      cursor.EndRecord();
+    }
+    DropResident(cursor);
+  }
+
+  static void SkipProperty(const PlyProperty& property, Cursor& cursor) {
+    if (property.is_list) {
+      cursor.SkipItems(property.type, cursor.Count(property.count_type));
+    } else {
+      cursor.Skip(property.type);
+    }
+  }
+
+  void WalkTriangles(const PlyElementPlan& plan, Cursor& cursor) {
+    const PlyTriangulator triangulator(plan, layout_.vertex_count);
+    const std::vector<PlyProperty>& properties = plan.element->properties;
+    const PlainTriangles plain = PlainTrianglesOf(plan);
+    room_ = 0;
+    for (uint64_t record = 0; record < plan.element->count; ++record) {
+      if (plain.stride > 0) record += WalkPlainTriangles(plan, plain, cursor, record);
+      if (record == plan.element->count) break;
+      cursor.BeginRecord(record);
+      const PlyPosition start = cursor.position();
+      for (size_t i = 0; i < properties.size(); ++i) {
+        if (i == plan.index_list) {
+          WalkIndices(plan, triangulator, cursor, start, record);
+        } else {
+          SkipProperty(properties[i], cursor);
+        }
+      }
+      cursor.EndRecord();
+    }
+  }
+
+  /// Binary faces with a count of one byte and no other list: triangles have all the same size.
+  struct PlainTriangles {
+    uint64_t prefix = 0;  // bytes before the count
+    uint64_t stride = 0;  // bytes of a triangle's record; 0 where the faces have another form
+  };
+
+  static PlainTriangles PlainTrianglesOf(const PlyElementPlan& plan) {
+    const std::vector<PlyProperty>& properties = plan.element->properties;
+    const PlyProperty& list = properties[plan.index_list];
+    if (!Cursor::kFixedSizes || plan.role != PlyRole::kFaces || ScalarSize(list.count_type) != 1 ||
+        std::ranges::count_if(properties, &PlyProperty::is_list) != 1) {
+      return {};
+    }
+    PlainTriangles plain;
+    for (size_t i = 0; i < plan.index_list; ++i) plain.prefix += ScalarSize(properties[i].type);
+    plain.stride = plan.smallest_record + 3 * ScalarSize(list.type);
+    return plain;
+  }
+
+  /// Steps over the triangles from `record` on; their number.
+  uint64_t WalkPlainTriangles(const PlyElementPlan& plan, const PlainTriangles& plain,
+                              Cursor& cursor, uint64_t record) {
+    uint64_t total = 0;
+    if constexpr (Cursor::kFixedSizes) {
+      while (record + total < plan.element->count) {
+        const PlyPosition start = cursor.position();
+        const uint64_t most =
+            std::min(plan.element->count - record - total, room_ > 0 ? room_ : kPlyBlockTriangles);
+        const uint64_t count = cursor.SkipTriangles(plain.prefix, plain.stride, most);
+        if (count == 0) break;
+        AddTriangles(count, {plan_index_, start, record + total, 0, {}, 0}, cursor);
+        total += count;
+      }
+    }
+    return total;
+  }
+
+  void WalkIndices(const PlyElementPlan& plan, const PlyTriangulator& triangulator, Cursor& cursor,
+                   PlyPosition start, uint64_t record) {
+    const PlyProperty& list = plan.element->properties[plan.index_list];
+    const uint64_t count = cursor.Count(list.count_type);
+    if (plan.role == PlyRole::kStrips) {
+      WalkLongList(plan, count, triangulator, cursor, record);
+      return;
+    }
+    if (count < 3) {
+      ++blocks_.notes.polygons_dropped;
+    } else if (count > 3) {
+      ++blocks_.notes.polygons_triangulated;
+    }
+    if (count > kPlyBlockTriangles + 2) {
+      WalkLongList(plan, count, triangulator, cursor, record);
+      return;
+    }
+    cursor.SkipItems(list.type, count);
+    if (count >= 3) AddTriangles(count - 2, {plan_index_, start, record, 0, {}, 0}, cursor);
+  }
+
+  /// A list whose triangles are counted one by one, so that blocks can begin inside of it.
+  void WalkLongList(const PlyElementPlan& plan, uint64_t count, const PlyTriangulator& triangulator,
+                    Cursor& cursor, uint64_t record) {
+    const ScalarType type = plan.element->properties[plan.index_list].type;
+    PlyListState state;
+    Triangle triangle;
+    for (uint64_t left = count; left > 0; --left) {
+      const PlyTriangleBlock here{plan_index_, cursor.position(), record, left, state, 0};
+      const int64_t index = cursor.Integer(type);
+      if (triangulator.Push(index, cursor.place(), state, triangle)) AddTriangles(1, here, cursor);
+      if (plan.role == PlyRole::kStrips && state.seen == 3) ++blocks_.notes.strips;
+    }
+  }
+
+  /// Counts triangles that begin at `here`, which begins a block where they do not fit in the last.
+  void AddTriangles(uint64_t count, const PlyTriangleBlock& here, const Cursor& cursor) {
+    if (count > room_) {
+      blocks_.triangles.push_back(here);
+      room_ = kPlyBlockTriangles;
+      DropResident(cursor);
+    }
+    room_ -= count;
+    blocks_.triangles.back().triangles += count;
+    blocks_.triangle_count += count;
+  }
+
+  void DropResident(const Cursor& cursor) {
+    const uint64_t offset = cursor.position().offset;
+    if (offset < dropped_ + kResidentBytes) return;
+    file_.DropResident(dropped_, offset);
+    dropped_ = offset;
+  }
+
+  const MappedFile& file_;
+  const PlyLayout& layout_;
+  PlyPosition position_;
+  size_t plan_index_ = 0;
+  uint64_t room_ = 0;     // triangles that the last block can still take
+  uint64_t dropped_ = 0;  // offset up to which the walk has given pages back
+  PlyBlocks blocks_;
+};
+
+}  // namespace
+
+PlyBlocks IndexPlyBlocks(const MappedFile& file, const PlyHeader& header, const PlyLayout& layout) {
+  switch (header.format) {
+    case PlyFormat::kAscii:
+      return BlockIndexer<PlyAsciiCursor>(file, header, layout).Index();
+    case PlyFormat::kBinaryLittleEndian:
+      return BlockIndexer<PlyBinaryCursor<false>>(file, header, layout).Index();
+    case PlyFormat::kBinaryBigEndian:
+      break;
+  }
+  return BlockIndexer<PlyBinaryCursor<true>>(file, header, layout).Index();
+}
+
+}  // namespace folprom::io

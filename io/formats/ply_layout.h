@@ -1,0 +1,39 @@
+// Which elements and properties of a PLY file are the mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/formats/ply_header.h"
+
+namespace folprom::io {
+
+enum class PlyRole : uint8_t { kVertices, kFaces, kStrips, kOther };
+
+/// How the records of one element are read.
+struct PlyElementPlan {
+  const PlyElement* element = nullptr;
+  PlyRole role = PlyRole::kOther;
+  /// kVertices: indices of the properties x, y, z.
+  std::array<size_t, 3> coordinates{};
+  /// kFaces, kStrips: index of the list of vertex indices.
+  size_t index_list = 0;
+  /// Binary bytes of a record with empty lists.
+  uint64_t smallest_record = 0;
+  bool has_lists = false;
+};
+
+struct PlyLayout {
+  std::vector<PlyElementPlan> elements;  ///< in the order of the file, without those of no record
+  uint64_t vertex_count = 0;
+  ScalarType coordinate_type = ScalarType::kFloat32;
+  std::vector<std::string> ignored_properties;
+};
+
+/// The plan points into `header`. Throws Failure kInput naming `path` and the element where the
+/// file is no mesh: no vertices, a coordinate missing or a list, faces without integer indices.
+PlyLayout PlanPlyLayout(const PlyHeader& header, const std::string& path);
+
+}  // namespace folprom::io

@@ -1,0 +1,173 @@
+#include "io/spill/spill.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "io/files/posix.h"
+
+namespace folprom::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kSmallestBuffer = 4096;
+constexpr size_t kLargestBuffer = size_t{1} << 20;
+
+std::string DefaultParent() {
+  const char* folder = std::getenv("TMPDIR");
+  return folder != nullptr && *folder != '\0' ? folder : "/tmp";
+}
+
+Descriptor OpenForWriting(const std::string& path, int flags) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0600));
+  if (!file.open()) ThrowSystemError(ErrorKind::kOutput, path, "cannot open temporary file");
+  return file;
+}
+
+void AppendToFile(const std::string& path, std::span<const uint8_t> bytes) {
+  Descriptor file = OpenForWriting(path, O_APPEND);
+  WriteAll(file.get(), bytes, path);
+  file.CloseChecked(path);
+}
+
+}  // namespace
+
+SpillDirectory::SpillDirectory(const std::string& parent) {
+  path_ = (fs::path(parent.empty() ? DefaultParent() : parent) / "folprom-XXXXXX").string();
+  if (::mkdtemp(path_.data()) == nullptr) {
+    ThrowSystemError(ErrorKind::kOutput, parent.empty() ? DefaultParent() : parent,
+                     "cannot create a temporary folder");
+  }
+}
+
+SpillDirectory::~SpillDirectory() {
+  std::error_code ignored;  // nothing is left to do about it
+  fs::remove_all(path_, ignored);
+}
+
+std::string SpillDirectory::File(const std::string& name) const {
+  return (fs::path(path_) / name).string();
+}
+
+uint64_t SpillDirectory::SizeBytes() const {
+  uint64_t bytes = 0;
+  for (const auto& entry : fs::directory_iterator(path_)) bytes += entry.file_size();
+  return bytes;
+}
+
+// A buffer belongs to a stream only while it holds bytes of it: with more streams than the memory
+// has buffers for, the ones that are in use are written out and given away.
+struct SpillStreams::Impl {
+  struct Stream {
+    uint64_t written = 0;  // bytes in the file
+    size_t used = 0;       // bytes in the buffer
+    std::unique_ptr<uint8_t[]> buffer;
+  };
+
+  std::string prefix;
+  std::vector<Stream> streams;
+  size_t buffer_size = kSmallestBuffer;
+  size_t buffers_left = 1;  // how many more may be allocated
+  std::vector<std::unique_ptr<uint8_t[]>> free_buffers;
+  std::vector<size_t> owners;  // streams that hold a buffer
+
+  std::string Path(size_t stream) const { return prefix + std::to_string(stream); }
+
+  void Write(size_t stream, std::span<const uint8_t> bytes) {
+    if (bytes.empty()) return;
+    AppendToFile(Path(stream), bytes);
+    streams[stream].written += bytes.size();
+  }
+
+  void Flush(size_t stream) {
+    Stream& s = streams[stream];
+    Write(stream, {s.buffer.get(), s.used});
+    s.used = 0;
+  }
+
+  void TakeAllBuffers() {
+    for (const size_t owner : owners) {
+      Flush(owner);
+      free_buffers.push_back(std::move(streams[owner].buffer));
+    }
+    owners.clear();
+  }
+
+  void GiveBuffer(size_t stream) {
+    if (free_buffers.empty() && buffers_left == 0) TakeAllBuffers();
+    if (free_buffers.empty()) {
+      free_buffers.push_back(std::make_unique<uint8_t[]>(buffer_size));
+      --buffers_left;
+    }
+    streams[stream].buffer = std::move(free_buffers.back());
+    free_buffers.pop_back();
+    owners.push_back(stream);
+  }
+};
+
+SpillStreams::SpillStreams(const SpillDirectory& directory, std::string name, size_t stream_count,
+                           uint64_t buffer_bytes)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->prefix = directory.File(name + ".");
+  impl_->streams.resize(stream_count);
+  const uint64_t share = buffer_bytes / std::max<size_t>(stream_count, 1);
+  impl_->buffer_size = static_cast<size_t>(std::clamp<uint64_t>(
+      share / kSmallestBuffer * kSmallestBuffer, kSmallestBuffer, kLargestBuffer));
+  impl_->buffers_left = static_cast<size_t>(std::clamp<uint64_t>(
+      buffer_bytes / impl_->buffer_size, 1, std::max<size_t>(stream_count, 1)));
+}
+
+SpillStreams::~SpillStreams() = default;
+
+void SpillStreams::Append(size_t stream, const void* bytes, size_t size) {
+  Impl::Stream& s = impl_->streams[stream];
+  if (s.buffer == nullptr) impl_->GiveBuffer(stream);
+  if (size > impl_->buffer_size - s.used) {
+    impl_->Flush(stream);
+    if (size >= impl_->buffer_size) {
+      impl_->Write(stream, {static_cast<const uint8_t*>(bytes), size});
+      return;
+    }
+  }
+  if (size > 0) std::memcpy(s.buffer.get() + s.used, bytes, size);
+  s.used += size;
+}
+
+void SpillStreams::Finish() {
+  impl_->TakeAllBuffers();
+  impl_->free_buffers.clear();
+}
+
+uint64_t SpillStreams::size_bytes(size_t stream) const {
+  return impl_->streams[stream].written + impl_->streams[stream].used;
+}
+
+MappedFile SpillStreams::Map(size_t stream) const {
+  if (impl_->streams[stream].written == 0) return {};
+  Result<MappedFile> file = MappedFile::Open(impl_->Path(stream));
+  if (!file) throw Failure(ErrorKind::kOutput, "temporary file " + file.error().message);
+  if (file->bytes().size() != impl_->streams[stream].written) {
+    throw Failure(ErrorKind::kOutput,
+                  "temporary file " + impl_->Path(stream) + ": changed by someone else");
+  }
+  return std::move(file).value();
+}
+
+void SpillStreams::Remove(size_t stream) {
+  if (impl_->streams[stream].written > 0) ::unlink(impl_->Path(stream).c_str());
+}
+
+void WriteSpillFile(const SpillDirectory& directory, const std::string& name,
+                    std::span<const uint8_t> bytes) {
+  const std::string path = directory.File(name);
+  Descriptor file = OpenForWriting(path, O_TRUNC);
+  WriteAll(file.get(), bytes, path);
+  file.CloseChecked(path);
+}
+
+}  // namespace folprom::io

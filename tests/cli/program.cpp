@@ -1,0 +1,85 @@
+#include "tests/cli/program.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace folprom::cli_test {
+namespace fs = std::filesystem;
+
+std::string FileText(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void WriteText(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+CliTest::CliTest() {
+  std::string name = (fs::temp_directory_path() / "folprom-cli-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  root_ = name;
+  folder_ = root_ / "files";
+  fs::create_directory(folder_);
+}
+
+CliTest::~CliTest() {
+  std::error_code ignored;
+  fs::remove_all(root_, ignored);
+}
+
+std::vector<std::string> CliTest::Files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+pid_t CliTest::Start(const std::vector<std::string>& arguments) const {
+  const std::string out = (root_ / "out").string();
+  const std::string err = (root_ / "err").string();
+  WriteText(err, "");
+  std::vector<std::string> words = {FOLPROM_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const pid_t process = fork();
+  if (process != 0) return process;
+  dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+  dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+
+std::string CliTest::ErrorsSoFar() const { return FileText(root_ / "err"); }
+
+Outcome CliTest::Wait(pid_t process) const {
+  int status = 0;
+  waitpid(process, &status, 0);
+  Outcome outcome;
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  outcome.out = FileText(root_ / "out");
+  outcome.err = FileText(root_ / "err");
+  return outcome;
+}
+
+void CliTest::ExpectError(const std::vector<std::string>& arguments, int exit_code,
+                          const std::string& part) const {
+  const Outcome outcome = Run(arguments);
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(outcome.err.starts_with("folprom: ")) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+}
+
+}  // namespace folprom::cli_test

@@ -1,0 +1,139 @@
+// What encode, decode, info and verify print, and their exit codes on good and bad files.
+#include "tests/cli/program.h"
+
+namespace folprom::cli_test {
+namespace {
+
+class Report : public CliTest {
+ protected:
+  // A scan of 3,000 vertices, encoded.
+  void SetUp() override {
+    ASSERT_EQ(Run({"synth", "--vertices", "3000", "-o", Path("s.ply"), "-q"}).exit_code, 0);
+    encoded_ = Run({"encode", Path("s.ply"), "-o", Path("s.folp"), "--json"});
+    ASSERT_EQ(encoded_.exit_code, 0) << encoded_.err;
+  }
+
+  Outcome encoded_;
+};
+
+void ExpectKeys(const nlohmann::json& object, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
+}
+
+TEST_F(Report, EncodeAsJson) {
+  const auto report = encoded_.json();
+  ExpectKeys(report, {"vertices", "faces", "bytes", "bits_per_vertex", "seconds", "peak_rss_bytes",
+                      "subtrees", "layers", "spill_bytes", "warnings", "output"});
+  EXPECT_EQ(report.at("vertices"), 3000);
+  EXPECT_EQ(report.at("bytes"), std::filesystem::file_size(Path("s.folp")));
+  EXPECT_DOUBLE_EQ(report.at("bits_per_vertex"), report.at("bytes").get<double>() * 8 / 3000);
+  EXPECT_GE(report.at("subtrees"), 1);
+  EXPECT_GE(report.at("layers"), 1);
+  EXPECT_EQ(encoded_.err, "");
+}
+
+TEST_F(Report, InfoAsJson) {
+  const Outcome outcome = Run({"info", Path("s.folp"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto info = outcome.json();
+  ExpectKeys(info, {"format_version", "vertices", "faces", "bytes", "bytes_present",
+                    "layers_present", "subtrees", "tolerance", "box_lo", "box_hi", "codec",
+                    "table_bytes", "checksum_bytes", "flush_bytes", "overhead"});
+  ExpectKeys(info.at("bits_per_vertex_by_kind"),
+             {"split", "offsets", "refinement", "connectivity", "exceptions", "seams"});
+  EXPECT_EQ(info.at("vertices"), 3000);
+  EXPECT_EQ(info.at("bytes"), encoded_.json().at("bytes"));
+  EXPECT_EQ(info.at("codec").at("hierarchy"), "lloyd");
+  const auto& layers = info.at("layers");
+  ASSERT_EQ(layers.size(), encoded_.json().at("layers").get<size_t>());
+  for (const auto& layer : layers) {
+    ExpectKeys(layer, {"bytes", "end_byte", "vertices", "faces", "error_bound", "bits_per_vertex"});
+  }
+  EXPECT_EQ(layers.back().at("end_byte"), info.at("bytes"));
+  EXPECT_EQ(layers.back().at("vertices"), 3000);
+}
+
+TEST_F(Report, InfoAsTableHasARowForEachLayer) {
+  const Outcome outcome = Run({"info", Path("s.folp")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto layers = encoded_.json().at("layers").get<size_t>();
+  const std::string table = outcome.out.substr(outcome.out.find("\nlayer") + 1);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<long>(layers) + 2);
+}
+
+TEST_F(Report, DecodeAsJson) {
+  const Outcome outcome = Run({"decode", Path("s.folp"), "-o", Path("d.ply"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto report = outcome.json();
+  ExpectKeys(report, {"vertices", "faces", "seconds", "peak_rss_bytes", "layers", "layers_total",
+                      "complete", "bytes_read", "error_bound", "warnings"});
+  EXPECT_EQ(report.at("vertices"), 3000);
+  EXPECT_EQ(report.at("faces"), encoded_.json().at("faces"));
+  EXPECT_EQ(report.at("complete"), true);
+  EXPECT_EQ(report.at("layers"), report.at("layers_total"));
+}
+
+TEST_F(Report, DecodeOfOneLayerIsCoarser) {
+  const Outcome outcome =
+      Run({"decode", Path("s.folp"), "-o", Path("d.ply"), "--layers", "1", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto report = outcome.json();
+  EXPECT_EQ(report.at("layers"), 1);
+  EXPECT_LT(report.at("vertices"), 3000);
+  EXPECT_LT(report.at("bytes_read"), encoded_.json().at("bytes"));
+}
+
+TEST_F(Report, VerifyIsLosslessWithAndWithoutTheOriginal) {
+  const Outcome alone = Run({"verify", Path("s.folp"), "--json"});
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(alone.json().at("lossless"), true);
+  EXPECT_EQ(alone.json().at("against"), false);
+  EXPECT_TRUE(alone.json().at("max_position_error").is_null());
+  const Outcome against = Run({"verify", Path("s.folp"), "--against", Path("s.ply"), "--json"});
+  ASSERT_EQ(against.exit_code, 0) << against.err;
+  EXPECT_EQ(against.json().at("lossless"), true);
+  EXPECT_LE(against.json().at("max_position_error"), against.json().at("tolerance"));
+  ExpectKeys(against.json(), {"vertices", "faces", "reason", "seconds"});
+}
+
+TEST_F(Report, VerifyAgainstAnotherScanGivesFour) {
+  ASSERT_EQ(Run({"synth", "--vertices", "3000", "--seed", "2", "-o", Path("t.ply"), "-q"}).exit_code,
+            0);
+  const Outcome outcome = Run({"verify", Path("s.folp"), "--against", Path("t.ply"), "--json"});
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_EQ(outcome.json().at("lossless"), false);
+  EXPECT_NE(outcome.json().at("reason"), "");
+  EXPECT_NE(outcome.err.find("not lossless"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Report, FileCutInsideTheTableGivesFour) {
+  WriteText(Path("cut.folp"), FileText(Path("s.folp")).substr(0, 20));
+  ExpectError({"info", Path("cut.folp")}, 4, "cut.folp");
+  ExpectError({"decode", Path("cut.folp"), "-o", Path("d.ply"), "--json"}, 4, "cut.folp");
+  EXPECT_FALSE(std::filesystem::exists(Path("d.ply")));
+}
+
+TEST_F(Report, CutFileIsNotLossless) {
+  const std::string whole = FileText(Path("s.folp"));
+  WriteText(Path("cut.folp"), whole.substr(0, whole.size() - 1));
+  EXPECT_EQ(Run({"verify", Path("cut.folp"), "--json"}).exit_code, 4);
+}
+
+TEST_F(Report, UnreadableScanGivesThree) {
+  WriteText(Path("bad.ply"), "ply\nformat binary_little_endian 1.0\nelement vertex 5\n");
+  ExpectError({"encode", Path("bad.ply"), "-o", Path("o.folp")}, 3, "bad.ply");
+  EXPECT_FALSE(std::filesystem::exists(Path("o.folp")));
+}
+
+TEST_F(Report, RunnersGiveTheSameFile) {
+  const std::string whole = FileText(Path("s.folp"));
+  for (const char* runner : {"serial", "shuffled:1", "shuffled:99", "tbb"}) {
+    ASSERT_EQ(Run({"encode", Path("s.ply"), "-o", Path("o.folp"), "-f", "-q", "--runner", runner})
+                  .exit_code,
+              0);
+    EXPECT_EQ(FileText(Path("o.folp")), whole) << runner;
+  }
+}
+
+}  // namespace
+}  // namespace folprom::cli_test

@@ -1,0 +1,56 @@
+#include "io/container/layout.h"
+
+#include <gtest/gtest.h>
+
+namespace folprom::io {
+namespace {
+
+/// Layers of two subtrees: sizes inner 0, seam 0, inner 1, seam 1, layer by layer.
+FileTable TableOf(std::vector<uint64_t> sizes) {
+  FileTable table;
+  table.subtrees.resize(2);
+  table.layers.resize(sizes.size() / 4);
+  table.segment_bytes = std::move(sizes);
+  return table;
+}
+
+using Ends = std::vector<std::pair<uint64_t, uint64_t>>;
+Ends GroupsOf(const FileLayout& layout) {
+  Ends groups;
+  for (const ChecksumGroup& group : layout.groups) groups.emplace_back(group.begin, group.end);
+  return groups;
+}
+
+TEST(Layout, JoinsSegmentsUntilAGroupHas512Bytes) {
+  const FileLayout layout = LayoutOf(TableOf({511, 1, 512, 0}), 100);
+  EXPECT_EQ(GroupsOf(layout), (Ends{{100, 612}, {620, 1132}}));
+  EXPECT_EQ(layout.segment_begin, (std::vector<uint64_t>{100, 611, 620, 1140}));
+  EXPECT_EQ(layout.file_bytes, 1140u);
+  EXPECT_EQ(layout.checksum_bytes, 16u);
+}
+
+TEST(Layout, TheRestOfALayerIsItsOwnGroup) {
+  const FileLayout layout = LayoutOf(TableOf({600, 5, 0, 6, 7, 0, 0, 0}), 0);
+  EXPECT_EQ(GroupsOf(layout), (Ends{{0, 600}, {608, 619}, {627, 634}}));
+  EXPECT_EQ(layout.layer_end, (std::vector<uint64_t>{627, 642}));
+}
+
+TEST(Layout, ALayerWithoutBytesHasNoChecksum) {
+  const FileLayout layout = LayoutOf(TableOf({0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}), 50);
+  EXPECT_EQ(GroupsOf(layout), (Ends{{50, 51}}));
+  EXPECT_EQ(layout.layer_end, (std::vector<uint64_t>{50, 59, 59}));
+}
+
+TEST(Layout, AGroupNeverCrossesALayer) {
+  const FileLayout layout = LayoutOf(TableOf({1, 1, 1, 1, 1, 1, 1, 1}), 0);
+  EXPECT_EQ(GroupsOf(layout), (Ends{{0, 4}, {12, 16}}));
+}
+
+TEST(Layout, WithoutLayersTheFileEndsAfterTheHeader) {
+  const FileLayout layout = LayoutOf(FileTable{}, 77);
+  EXPECT_EQ(layout.file_bytes, 77u);
+  EXPECT_TRUE(layout.groups.empty());
+}
+
+}  // namespace
+}  // namespace folprom::io

@@ -1,0 +1,243 @@
+#include "io/container/table_code.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "folprom/result.h"
+#include "io/container/byte_code.h"
+#include "samples.h"
+
+namespace folprom::io {
+namespace {
+
+Error FailureOf(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Failure& failure) {
+    return failure.error();
+  }
+  return {ErrorKind::kUsage, "no failure"};
+}
+
+void ExpectCorrupt(std::span<const uint8_t> bytes, const std::string& reason) {
+  const Error error = FailureOf([&] { DecodeTable(bytes, "scan.folp", 14); });
+  EXPECT_EQ(error.kind, ErrorKind::kCorrupt) << error.message;
+  EXPECT_TRUE(error.message.starts_with("scan.folp: ")) << error.message;
+  EXPECT_NE(error.message.find(reason), std::string::npos) << error.message;
+}
+
+/// The fields before the counts of layers and subtrees, for a mesh without vertices.
+ByteWriter BeforeCounts(uint64_t vertices = 0, uint64_t extent = 0) {
+  ByteWriter out;
+  out.Varint(vertices);
+  out.Varint(0);
+  out.U8(6);
+  for (int i = 0; i < 3; ++i) out.F64(0);
+  out.F64(1);
+  for (int i = 0; i < 3; ++i) out.Varint(extent);
+  out.F64(0);
+  out.Varint(0);
+  out.U64(0);
+  out.U64(0);
+  for (size_t i = 0; i < kBitKinds; ++i) out.Varint(0);
+  return out;
+}
+
+TEST(TableCode, BringsBackRandomTables) {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    const FileTable table = RandomTable(seed, seed % 2 == 0);
+    const auto bytes = EncodeTable(table);
+    EXPECT_EQ(DecodeTable(bytes, "file", 0), table) << seed;
+  }
+}
+
+TEST(TableCode, KeepsEveryBitOfFloats) {
+  FileTable table = ExampleTable();
+  table.origin = {-0.0, 1e-310, -1.7976931348623157e308};
+  table.unit = 5e-324;
+  table.layers[1].error_bound = 1e-45f;
+  const FileTable back = DecodeTable(EncodeTable(table), "file", 0);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(std::bit_cast<uint64_t>(back.origin[i]), std::bit_cast<uint64_t>(table.origin[i]));
+  }
+  EXPECT_EQ(back.unit, table.unit);
+  EXPECT_EQ(back.layers[1].error_bound, table.layers[1].error_bound);
+}
+
+TEST(TableCode, AScanLikeTableIsSmall) {
+  const size_t bytes = EncodeTable(ScanLikeTable()).size();
+  RecordProperty("bytes", static_cast<int>(bytes));
+  EXPECT_LE(bytes, 2000u);
+}
+
+TEST(TableCode, RejectsEveryTruncationAndExtraBytes) {
+  auto bytes = EncodeTable(ExampleTable());
+  for (size_t size = 0; size < bytes.size(); ++size) {
+    ExpectCorrupt(std::span(bytes).first(size), "");
+  }
+  bytes.push_back(0);
+  ExpectCorrupt(bytes, "1 bytes after the segment sizes");
+}
+
+TEST(TableCode, DamagedTablesGiveAnErrorOrAConsistentTable) {
+  std::mt19937_64 random(3);
+  for (int trial = 0; trial < 20000; ++trial) {
+    auto bytes = EncodeTable(trial % 2 == 0 ? ExampleTable() : RandomTable(random() % 50, true));
+    for (uint64_t i = 0; i <= random() % 3; ++i) {
+      bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
+    }
+    try {
+      EXPECT_EQ(TableFault(DecodeTable(bytes, "file", 0)), "");
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.error().kind, ErrorKind::kCorrupt);
+    }
+  }
+}
+
+TEST(TableCode, RejectsCountsThatTheBytesLeftCannotHold) {
+  const auto with_counts = [](uint64_t layers, uint64_t subtrees, size_t bytes) {
+    ByteWriter out = BeforeCounts();
+    out.Varint(layers);
+    out.Varint(subtrees);
+    out.Bytes(std::vector<uint8_t>(bytes));
+    return std::move(out).Take();
+  };
+  ExpectCorrupt(with_counts(4097, 0, 100), "number of layers is 4097, at most 4096");
+  ExpectCorrupt(with_counts(UINT64_MAX, 1, 100), "number of layers");
+  ExpectCorrupt(with_counts(1, uint64_t{1} << 32, 100), "number of subtrees");
+  ExpectCorrupt(with_counts(0, UINT32_MAX, 100), "bytes of table, 100 are left");
+  ExpectCorrupt(with_counts(4096, UINT32_MAX, 100), "bytes of table, 100 are left");
+  // Room for the records, not for 4,096 x 2,000 x 2 sizes.
+  ExpectCorrupt(with_counts(4096, 2000, 4096 * 6 + 2000 * 8), "bytes of table");
+}
+
+TEST(TableCode, RejectsSettingsLongerThanTheTable) {
+  auto bytes = EncodeTable(ExampleTable());
+  const size_t settings = 2 + 2 + 1 + 32 + 5 + 8;
+  ASSERT_EQ(bytes[settings], 2);
+  bytes[settings] = 0x7f;
+  ExpectCorrupt(bytes, "length of the coder's settings is 127");
+}
+
+TEST(TableCode, RejectsNeighboursThatAreNotLower) {
+  const auto with_neighbours = [](const std::vector<uint64_t>& steps) {
+    ByteWriter out = BeforeCounts();
+    out.Varint(0);
+    out.Varint(3);
+    for (int subtree = 0; subtree < 3; ++subtree) {
+      for (int i = 0; i < 7; ++i) out.Varint(0);
+      if (subtree < 2) out.Varint(0);
+    }
+    out.Varint(steps.size());
+    for (const uint64_t step : steps) out.Varint(step);
+    return std::move(out).Take();
+  };
+  EXPECT_EQ(DecodeTable(with_neighbours({0, 0}), "f", 0).subtrees[2].lower_neighbours,
+            (std::vector<uint32_t>{0, 1}));
+  EXPECT_EQ(DecodeTable(with_neighbours({1}), "f", 0).subtrees[2].lower_neighbours,
+            (std::vector<uint32_t>{1}));
+  ExpectCorrupt(with_neighbours({2}), "step to the next lower neighbour is 2, at most 1");
+  ExpectCorrupt(with_neighbours({1, 0}), "lower neighbour not below its subtree");
+  ExpectCorrupt(with_neighbours({0, 0, 0}), "number of lower neighbours is 3");
+}
+
+TEST(TableCode, RejectsBoxesOutsideTheExtent) {
+  const auto with_box = [](uint64_t lo, uint64_t side) {
+    ByteWriter out = BeforeCounts(0, 10);
+    out.Varint(0);
+    out.Varint(1);
+    out.Varint(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      out.Varint(lo);
+      out.Varint(side);
+    }
+    out.Varint(0);
+    return std::move(out).Take();
+  };
+  EXPECT_EQ(DecodeTable(with_box(4, 6), "f", 0).subtrees[0].box_hi[2], 10);
+  ExpectCorrupt(with_box(11, 0), "lower corner of a box is 11");
+  ExpectCorrupt(with_box(4, 7), "side of a box is 7");
+  ExpectCorrupt(with_box(4, UINT64_MAX), "side of a box");
+}
+
+TEST(TableCode, RejectsVerticesThatTheSubtreesDoNotHave) {
+  ByteWriter out = BeforeCounts(5);
+  out.Varint(0);
+  out.Varint(0);
+  ExpectCorrupt(std::move(out).Take(), "the subtrees have 0 vertices, the mesh 5");
+}
+
+TEST(TableCode, RejectsLayersThatContradictTheMesh) {
+  const auto with_layer = [](float bound, uint64_t vertices, uint64_t faces_code) {
+    ByteWriter out = BeforeCounts(0);
+    out.Varint(1);
+    out.Varint(0);
+    out.F32(bound);
+    out.Varint(vertices);
+    out.Varint(faces_code);
+    out.Bytes(std::vector<uint8_t>(2));
+    return std::move(out).Take();
+  };
+  EXPECT_EQ(DecodeTable(with_layer(1, 0, 4), "f", 0).layers[0].faces, 2u);
+  ExpectCorrupt(with_layer(1, 1, 0), "growth of a layer's vertices is 1, at most 0");
+  ExpectCorrupt(with_layer(1, 0, 3), "number of a layer's faces");
+  ExpectCorrupt(with_layer(-1, 0, 0), "layer 0: error bound");
+  ExpectCorrupt(with_layer(std::numeric_limits<float>::quiet_NaN(), 0, 0), "error bound");
+}
+
+TEST(TableCode, RejectsALatticeThatIsNone) {
+  const auto bytes = EncodeTable(ExampleTable());
+  const auto with_double = [&](size_t at, double value) {
+    auto changed = bytes;
+    ByteWriter number;
+    number.F64(value);
+    const auto coded = std::move(number).Take();
+    std::copy(coded.begin(), coded.end(), changed.begin() + static_cast<ptrdiff_t>(at));
+    return changed;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  ExpectCorrupt(with_double(5, nan), "origin of the lattice");
+  ExpectCorrupt(with_double(13, infinity), "origin of the lattice");
+  ExpectCorrupt(with_double(29, 0), "unit of the lattice");
+  ExpectCorrupt(with_double(29, -1), "unit of the lattice");
+  ExpectCorrupt(with_double(29, infinity), "unit of the lattice");
+  ExpectCorrupt(with_double(42, -1), "tolerance");
+  ExpectCorrupt(with_double(42, nan), "tolerance");
+  auto type = bytes;
+  type[4] = 8;
+  ExpectCorrupt(type, "coordinate type 8");
+  ByteWriter wide = BeforeCounts(0, uint64_t{1} << 30);
+  ExpectCorrupt(std::move(wide).Take(), "extent of the lattice");
+}
+
+TEST(TableCode, RefusesToWriteWhatItWouldNotRead) {
+  const auto fault_with = [](const std::function<void(FileTable&)>& change) {
+    FileTable table = ExampleTable();
+    change(table);
+    const Error error = FailureOf([&] { EncodeTable(table); });
+    EXPECT_EQ(error.kind, ErrorKind::kInternal);
+    return error.message;
+  };
+  EXPECT_EQ(fault_with([](FileTable& t) { t.subtrees[1].lower_neighbours = {1}; }),
+            "table to write: subtree 1: lower neighbour not below its subtree");
+  fault_with([](FileTable& t) { t.subtrees[1].box_hi[0] = 1001; });
+  fault_with([](FileTable& t) { t.subtrees[1].box_lo[1] = 301; });
+  fault_with([](FileTable& t) { t.subtrees[1].box_lo[1] = -1; });
+  fault_with([](FileTable& t) { t.extent[0] = -1; });
+  fault_with([](FileTable& t) { t.extent[0] = 1 << 30; });
+  fault_with([](FileTable& t) { t.vertices = 701; });
+  fault_with([](FileTable& t) { t.layers[0].vertices = 701; });
+  fault_with([](FileTable& t) { t.layers[1].vertices = 99; });
+  fault_with([](FileTable& t) { t.layers[1].faces = kMaxCount + 1; });
+  fault_with([](FileTable& t) { t.faces = kMaxCount + 1; });
+  fault_with([](FileTable& t) { t.layers.resize(4097, t.layers[1]); });
+  fault_with([](FileTable& t) { t.segment_bytes.pop_back(); });
+  fault_with([](FileTable& t) { t.segment_bytes[0] = kMaxSegmentBytes + 1; });
+}
+
+}  // namespace
+}  // namespace folprom::io

@@ -1,0 +1,112 @@
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace folprom::io::testing {
+
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+  path_ = (fs::temp_directory_path() / "folprom-test-XXXXXX").string();
+  if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::vector<std::string> TemporaryFolder::Names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+void WriteFile(const std::string& path, std::string_view bytes) {
+  fs::remove(path);  // some file systems sync a file that is truncated and written anew
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush()) throw std::runtime_error("cannot write " + path);
+}
+
+std::string FileContent(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+FileSizeLimit::FileSizeLimit(uint64_t bytes) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  old_limit_ = limit.rlim_cur;
+  limit.rlim_cur = bytes;
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+FileSizeLimit::~FileSizeLimit() {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  limit.rlim_cur = old_limit_;
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+Result<std::unique_ptr<MeshSource>> OpenBytes(const TemporaryFolder& folder,
+                                              std::string_view bytes) {
+  WriteFile(folder.File("scan.ply"), bytes);
+  return MeshSource::Open(folder.File("scan.ply"));
+}
+
+Result<Mesh> AllBlocks(const MeshSource& source) {
+  Mesh mesh;
+  std::vector<double> xyz;
+  for (size_t block = 0; block < source.vertex_block_count(); ++block) {
+    if (Result<void> read = source.ReadVertexBlock(block, &xyz); !read) return read.error();
+    EXPECT_EQ(source.vertex_block_begin(block), mesh.xyz.size() / 3);
+    EXPECT_LE(xyz.size(), 3u * 65536u);
+    mesh.xyz.insert(mesh.xyz.end(), xyz.begin(), xyz.end());
+  }
+  std::vector<Triangle> triangles;
+  for (size_t block = 0; block < source.triangle_block_count(); ++block) {
+    if (Result<void> read = source.ReadTriangleBlock(block, &triangles); !read) return read.error();
+    EXPECT_LE(triangles.size(), 65536u);
+    EXPECT_FALSE(triangles.empty());
+    mesh.triangles.insert(mesh.triangles.end(), triangles.begin(), triangles.end());
+  }
+  EXPECT_EQ(source.vertex_count(), mesh.xyz.size() / 3);
+  EXPECT_EQ(source.vertex_block_begin(source.vertex_block_count()), source.vertex_count());
+  EXPECT_EQ(source.triangle_count(), mesh.triangles.size());
+  return mesh;
+}
+
+Result<Mesh> MeshOf(std::string_view bytes) {
+  const TemporaryFolder folder;
+  Result<std::unique_ptr<MeshSource>> source = OpenBytes(folder, bytes);
+  if (!source) return source.error();
+  return AllBlocks(**source);
+}
+
+std::string InputErrorOf(std::string_view bytes) {
+  const Result<Mesh> mesh = MeshOf(bytes);
+  if (mesh.ok() || mesh.error().kind != ErrorKind::kInput) return "";
+  return mesh.error().message;
+}
+
+std::string SharedData() {
+  const char* variable = std::getenv("FOLPROM_SHARED");
+  const std::string shared =
+      variable != nullptr ? variable : std::string(FOLPROM_SOURCE_DIR) + "/../shared";
+  return fs::is_directory(shared + "/data") ? shared + "/data/" : "";
+}
+
+}  // namespace folprom::io::testing

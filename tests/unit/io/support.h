@@ -1,0 +1,65 @@
+// Files and meshes for the tests of io.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/formats/mesh_source.h"
+
+namespace folprom::io::testing {
+
+/// A fresh folder that goes, with all in it, at the end of the scope.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::string& path() const { return path_; }
+  std::string File(const std::string& name) const { return path_ + "/" + name; }
+  /// Names of all files inside, sorted.
+  std::vector<std::string> Names() const;
+
+ private:
+  std::string path_;
+};
+
+void WriteFile(const std::string& path, std::string_view bytes);
+std::string FileContent(const std::string& path);
+
+/// Lowers the largest size of a file that the process may write; a full disk for a test.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(uint64_t bytes);
+  ~FileSizeLimit();
+
+ private:
+  uint64_t old_limit_;
+};
+
+struct Mesh {
+  std::vector<double> xyz;
+  std::vector<Triangle> triangles;
+};
+
+/// A file written with these bytes, then opened. Must not outlive the folder.
+Result<std::unique_ptr<MeshSource>> OpenBytes(const TemporaryFolder& folder,
+                                              std::string_view bytes);
+
+/// All blocks; checks that they hold as many vertices and triangles as the source announces.
+Result<Mesh> AllBlocks(const MeshSource& source);
+
+/// Open and all blocks.
+Result<Mesh> MeshOf(std::string_view bytes);
+
+/// The message of the kInput error that opening and reading these bytes gives; "" where there is
+/// none or one of another kind.
+std::string InputErrorOf(std::string_view bytes);
+
+/// The folder of shared scans, with a slash at its end; empty where there is none.
+std::string SharedData();
+
+}  // namespace folprom::io::testing

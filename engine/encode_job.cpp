@@ -105,7 +105,7 @@ void EncodeJob::Partition() {
   settings.subtree_vertices = options_.codec.subtree_vertices;
   settings.metric_a = options_.codec.metric_a;
   settings.metric_b = options_.codec.metric_b;
-  settings.normal_metric = options_.codec.normal_metric;
+  settings.normal_metric = options_.codec.subtree_normals;
   if (source_->vertex_count() > 0) {
     scan_ = PartitionScan(*source_, resolution_.lattice, settings,
                           WorkingBytes(options_.memory_bytes), runner_, *spill_, progress_);
@@ -116,10 +116,30 @@ void EncodeJob::Partition() {
   parameters_.settings = options_.codec;
   parameters_.extent = {extent[0], extent[1], extent[2]};
   uint32_t per_octave = options_.codec.layers_per_octave;
+  double edge = TypicalEdge();
   parameters_.schedule = LayerSchedule(parameters_.extent, per_octave,
                                        options_.codec.rounds_per_layer,
-                                       MostSplitLayers(parameters_.extent, per_octave),
-                                       MostRefineLayers(parameters_.extent, per_octave));
+                                       SplitLayersFor(parameters_.extent, edge, per_octave),
+                                       RefineLayersFor(parameters_.extent, edge, per_octave));
+}
+
+double EncodeJob::TypicalEdge() const {
+  constexpr size_t kSample = 4096;  // faces of each subtree
+  std::vector<uint64_t> lengths(outcomes_.size(), 0), counts(outcomes_.size(), 0);
+  runner_.ForEach(outcomes_.size(), [&](size_t s) {
+    SubtreeChunk chunk = scan_->Load(s);
+    size_t sampled = std::min(chunk.faces.size(), kSample);
+    for (const Face& face : chunk.faces.first(sampled)) {
+      for (size_t i = 0; i < 3; ++i) {
+        Vector3 d = Difference(chunk.positions[face[i]], chunk.positions[face[(i + 1) % 3]]);
+        lengths[s] += static_cast<uint64_t>(std::sqrt(Dot(d, d)));
+      }
+    }
+    counts[s] = 3 * sampled;
+  });
+  uint64_t length = std::accumulate(lengths.begin(), lengths.end(), uint64_t{0});
+  uint64_t count = std::accumulate(counts.begin(), counts.end(), uint64_t{0});
+  return count == 0 ? 0 : static_cast<double>(length) / static_cast<double>(count);
 }
 
 void EncodeJob::EncodeSubtrees(bool keep_order) {

@@ -61,6 +61,8 @@ class EncodeJob {
     io::MeshDigest digest;
     CostMeters meters;
   };
+  /// Mean edge length of a sample of every subtree, lattice units; 0 without faces.
+  double TypicalEdge() const;
   void DropEmptyLayers();
   std::vector<uint32_t> SeamMembers(size_t owner) const;
 

@@ -15,13 +15,15 @@ constexpr std::string_view kRepresentatives[] = {"curvature", "centre"};
 using S = CodecSettings;
 
 constexpr SettingKey kKeys[] = {
-    {"hierarchy", &S::hierarchy, "how vertex sets are made: lloyd, top-down split (section 2.1)", "",
-     0, 0, kHierarchies},
+    {"hierarchy", &S::hierarchy, "how vertex sets are made: lloyd, top-down split (section 2.1)",
+     "", 0, 0, kHierarchies},
     {"offsets", &S::offsets,
      "how children are placed: cylindrical, in the least-squares frame (section 2.2)", "", 0, 0,
      kOffsets},
     {"subtree_vertices", &S::subtree_vertices,
      "largest subtree: unit of parallel work, memory and random access", "vertices", 1, 16777216},
+    {"subtree_normals", &S::subtree_normals,
+     "subtrees are cut by the metric of section 2.1; false: by Euclidean distance", ""},
     {"children", &S::children, "K, children of a split (section 2)", "vertex sets", 2, 8},
     {"normal_metric", &S::normal_metric,
      "distances weigh normals by w_n (section 2.1); false: Euclidean distance", ""},

@@ -121,13 +121,15 @@ Verb AddEncode(CLI::App& program) {
   verb->add_option("--config", flags->config, "Settings to start from; flags win")
       ->type_name("C.toml");
   CLI::Option* bits =
-      verb->add_option("--bits", flags->bits, "Lattice of 2^N - 1 steps along the longest side; 1 .. 24")
+      verb->add_option("--bits", flags->bits,
+                       "Lattice of 2^N - 1 steps along the longest side; 1 .. 24")
           ->check(CLI::Range(1, 24))
           ->type_name("N");
   AddPositiveOption(verb, "--tolerance", &flags->tolerance, "LENGTH",
                     "Largest error per axis, in model units")
       ->excludes(bits);
-  AddCountOption(verb, "--subtree-vertices", &flags->subtree_vertices, "Largest subtree in vertices, 20k");
+  AddCountOption(verb, "--subtree-vertices", &flags->subtree_vertices,
+                 "Largest subtree in vertices, 20k");
   verb->add_flag("--print-config", flags->print_config,
                  "Print the settings in force as a config file, and stop");
   AddWorkFlags(verb, &flags->work);

@@ -169,7 +169,8 @@ void AddWorkFlags(CLI::App* verb, WorkFlags* flags) {
       ->type_name("N");
   AddBytesOption(verb, "-M,--memory", &flags->memory,
                  "Resident size to stay below, 512MiB or 2G; never alters the result");
-  verb->add_option("--tmp", flags->temporary_folder, "Folder for temporary files; else $TMPDIR or /tmp")
+  verb->add_option("--tmp", flags->temporary_folder,
+                   "Folder for temporary files; else $TMPDIR or /tmp")
       ->type_name("DIR");
 }
 

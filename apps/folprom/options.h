@@ -58,8 +58,8 @@ CLI::Option* AddPositiveOption(CLI::App* verb, const std::string& name,
 /// The runner that --runner names; kUsage for an unknown name.
 std::unique_ptr<parallel::Runner> MakeRunner(const WorkFlags& flags, uint32_t threads);
 
-/// Failure where the output stands already and may not be replaced (kOutput), or is the input itself
-/// (kUsage), before any work is done.
+/// Failure where the output stands already and may not be replaced (kOutput), or is the input
+/// itself (kUsage), before any work is done.
 void CheckOutput(const std::string& input, const std::string& output, bool force);
 
 }  // namespace folprom::cli

@@ -12,7 +12,7 @@
 
 namespace folprom::cli {
 
-/// Receives a surface in blocks; vertices and faces each in order, faces never before their vertices.
+/// Receives a surface in blocks: vertices and faces each in order, no face before its vertices.
 class SurfaceSink {
  public:
   virtual ~SurfaceSink() = default;

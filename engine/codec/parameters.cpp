@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <type_traits>
+#include <variant>
 
 #include "engine/entropy/fixed_math.h"
+#include "engine/mesh/lattice.h"
+#include "folprom/settings_keys.h"
 
 namespace folprom {
 namespace {
@@ -59,17 +63,16 @@ double LayerSchedule::RefineBound(uint32_t layer) const {
   return bound;
 }
 
-uint32_t MostSplitLayers(const Int3& extent, uint32_t layers_per_octave) {
-  // Down to a spacing of one tolerance; closer vertices are split in the last layer.
-  uint32_t octaves = static_cast<uint32_t>(
-      std::bit_width(static_cast<uint32_t>(Longest(extent)) >> 6));
-  return octaves * layers_per_octave + 1;
+uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave) {
+  double finest = std::max(typical_edge / 4, 2 * kUnitsPerTolerance);
+  double octaves = std::max(Log2Exact(Longest(extent) / finest), 0.0);
+  return static_cast<uint32_t>(octaves * layers_per_octave) + 2;
 }
 
-uint32_t MostRefineLayers(const Int3& extent, uint32_t layers_per_octave) {
-  uint32_t octaves = static_cast<uint32_t>(
-      std::bit_width(static_cast<uint32_t>(Longest(extent)) >> 4));
-  return octaves * layers_per_octave + 1;
+uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave) {
+  double coarsest = typical_edge > 0 ? typical_edge / 16 : Longest(extent);
+  double octaves = std::max(Log2Exact(coarsest / kLeafBound), 0.0);
+  return static_cast<uint32_t>(octaves * layers_per_octave) + 1;
 }
 
 OffsetSettings CodecParameters::offsets() const {
@@ -83,30 +86,12 @@ ConnectivitySettings CodecParameters::connectivity() const {
 
 namespace {
 
-/// One list of the fields for both directions. Visit(reference) is called once for each field.
-template <class Parameters, class Visit>
-void ForEachField(Parameters& settings, Visit visit) {
-  visit(settings.hierarchy);
-  visit(settings.offsets);
-  visit(settings.subtree_vertices);
-  visit(settings.children);
-  visit(settings.normal_metric);
-  visit(settings.metric_a);
-  visit(settings.metric_b);
-  visit(settings.lloyd_iterations);
-  visit(settings.lloyd_threshold);
-  visit(settings.representative);
-  visit(settings.curvature_threshold);
-  visit(settings.gaussian_ratio);
-  visit(settings.quantisation_levels);
-  visit(settings.adaptive_quantisation);
-  visit(settings.predict_theta);
-  visit(settings.predict_height);
-  visit(settings.split_first);
-  visit(settings.pivot_order);
-  visit(settings.nearer_child);
-  visit(settings.layers_per_octave);
-  visit(settings.rounds_per_layer);
+/// Visit(field) for each setting in the order of the table of keys; one list for both directions.
+template <class Settings, class Visit>
+void ForEachField(Settings& settings, Visit visit) {
+  for (const SettingKey& key : SettingKeys()) {
+    std::visit([&](auto member) { visit(settings.*member); }, key.member);
+  }
 }
 
 static_assert(std::endian::native == std::endian::little, "fields are stored little-endian");
@@ -158,8 +143,8 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: " + checked.error().message);
   }
   uint32_t per_octave = parameters.settings.layers_per_octave;
-  if (counts[0] < 1 || counts[0] > MostSplitLayers(extent, per_octave) ||
-      counts[1] > MostRefineLayers(extent, per_octave)) {
+  if (counts[0] < 1 || counts[0] > SplitLayersFor(extent, 0, per_octave) ||
+      counts[1] > RefineLayersFor(extent, 0, per_octave)) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: number of layers out of range");
   }
   parameters.schedule = LayerSchedule(extent, per_octave, parameters.settings.rounds_per_layer,

@@ -43,9 +43,11 @@ class LayerSchedule {
   uint32_t split_layers_ = 1, refine_layers_ = 0;
 };
 
-/// Largest numbers of layers that the schedule of a mesh can use before empty ones are dropped.
-uint32_t MostSplitLayers(const Int3& extent, uint32_t layers_per_octave);
-uint32_t MostRefineLayers(const Int3& extent, uint32_t layers_per_octave);
+/// Numbers of layers before empty ones are dropped, for vertices `typical_edge` lattice units apart
+/// (0: unknown). Sets and cells far from typical share the last split and the first refine layer
+/// instead of having many nearly empty ones.
+uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave);
+uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave);
 
 /// Settings of the coder as one value.
 struct CodecParameters {

@@ -121,8 +121,14 @@ void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* t
   size_t kept = 0;
   for (size_t i = 0; i < open_.size(); ++i) {
     uint32_t set = open_[i];
-    if (sets_[set].state == kLeaf) continue;
-    double spacing = Spacing(set);
+    SetRecord& record = sets_[set];
+    if (record.state == kLeaf) continue;
+    // Spacings fall as neighbours split, so one that was too small before is not measured again.
+    double spacing = static_cast<double>(record.spacing);
+    if (spacing >= least_spacing) {
+      spacing = Spacing(set);
+      record.spacing = static_cast<float>(spacing);
+    }
     if (spacing < least_spacing) {
       open_[kept++] = set;
       continue;
@@ -317,6 +323,7 @@ uint32_t SubtreeCoder::CodeBinarySplit(Coder& coder, uint32_t set, const Int3& f
 void SubtreeCoder::FinishChild(uint32_t place, uint32_t set) {
   SetRecord& record = sets_[set];
   record.scale = child_scale_;
+  record.spacing = kUnmeasured;
   record.state = children_are_leaves_ ? kLeaf : kUnknown;
   if (record.cell == kNone) {
     record.cell = static_cast<uint32_t>(cells_.size());

@@ -91,7 +91,8 @@ TEST_F(Config, PaperFileHoldsThePapersConstants) {
 TEST_F(Config, PrintedSettingsReadBackTheSame) {
   const std::string config = Write(
       "[codec]\nchildren = 2\nmetric_b = 3\nlloyd_threshold = 0.1\npredict_theta = false\n"
-      "representative = \"centre\"\n[encode]\nmemory = 1000000\ntmp = \"/a \\\"b\\\" \\\\ \u00e4\"\n");
+      "representative = \"centre\"\n[encode]\nmemory = 1000000\n"
+      "tmp = \"/a \\\"b\\\" \\\\ \u00e4\"\n");
   const Outcome first = Effective({"--config", config, "--tolerance", "1e-7", "-T", "3"});
   ASSERT_EQ(first.exit_code, 0) << first.err;
   const Outcome second = Effective({"--config", Write(first.out)});

@@ -118,17 +118,22 @@ TEST_F(Usage, OutputInMissingFolderIsAnOutputError) {
 }
 
 TEST_F(Usage, InterruptedRunLeavesNothingBehind) {
-  for (const int number : {SIGINT, SIGTERM}) {
-    // A job that would take minutes; the log line tells that it is at work.
-    const pid_t process = Start({"synth", "--vertices", "20G", "-o", Path("s.ply"), "-v"});
-    while (ErrorsSoFar().find("count") == std::string::npos) {
+  struct Case {
+    const char* stage;
+    const char* vertices;
+    int signal;
+  };
+  for (const Case& c : {Case{"count", "20G", SIGINT}, Case{"write", "20M", SIGTERM}}) {
+    // Both stages last for seconds; the log line tells that one has begun.
+    const pid_t process = Start({"synth", "--vertices", c.vertices, "-o", Path("s.ply"), "-v"});
+    for (int i = 0; i < 6000 && ErrorsSoFar().find(c.stage) == std::string::npos; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    kill(process, number);
+    kill(process, c.signal);
     const Outcome outcome = Wait(process);
     EXPECT_EQ(outcome.exit_code, 130);
     EXPECT_NE(outcome.err.find("folprom: interrupted\n"), std::string::npos) << outcome.err;
-    EXPECT_TRUE(Files().empty());
+    EXPECT_TRUE(Files().empty()) << c.stage;
   }
 }
 

@@ -28,6 +28,9 @@ struct CodecSettings {
   Offsets offsets = Offsets::kCylindrical;
 
   uint32_t subtree_vertices = 65536;  ///< largest subtree; 1 .. 16,777,216
+  /// Subtrees are cut by the metric of section 2.1. false: by Euclidean distance, which makes them
+  /// compact: on dragon half the cross faces, 60 % fewer bits for seams, 0.7 % fewer in all.
+  bool subtree_normals = false;
 
   // Hierarchy (section 2.1)
   uint32_t children = 4;             ///< K, children of a split; 2 .. 8

@@ -126,13 +126,11 @@ class TbbRunner final : public Runner {
       const HandOver hand_over;
       job.Run(index, consume);
     };
-    InArena([&] {
-      oneapi::tbb::parallel_pipeline(
-          std::max<size_t>(std::min(window, count), 1),
-          make_filter<void, size_t>(filter_mode::serial_in_order, claim) &
-              make_filter<size_t, size_t>(filter_mode::parallel, produce_one) &
-              make_filter<size_t, void>(filter_mode::serial_in_order, consume_one));
-    });
+    const auto steps = make_filter<void, size_t>(filter_mode::serial_in_order, claim) &
+                       make_filter<size_t, size_t>(filter_mode::parallel, produce_one) &
+                       make_filter<size_t, void>(filter_mode::serial_in_order, consume_one);
+    const size_t at_once = std::max<size_t>(std::min(window, count), 1);
+    InArena([&] { oneapi::tbb::parallel_pipeline(at_once, steps); });
     job.RethrowFailure();
   }
 

@@ -104,10 +104,17 @@ Neighbourhood MeasureNeighbourhood(const Int3& vertex, std::span<const Int3> nei
   result.frame.z = SmallestAxis(moments);
   result.frame.x = TangentAxis(result.frame.z);
   double largest2 = 0, low = 0, high = 0, sum = 0;
+  Vector3 y = result.frame.y();
+  result.directions.reserve(neighbours.size());
   for (const Int3& neighbour : neighbours) {
     Vector3 d = Difference(neighbour, vertex);
     double z = Dot(d, result.frame.z);
-    largest2 = std::max(largest2, Dot(d, d) - z * z);
+    double u = Dot(d, result.frame.x), v = Dot(d, y), squared = u * u + v * v;
+    if (squared > 0) {
+      double rho = std::sqrt(squared);
+      result.directions.push_back({u / rho, v / rho, rho, z / squared});
+    }
+    largest2 = std::max(largest2, squared);
     low = std::min(low, z);
     high = std::max(high, z);
     sum = sum + z;
@@ -118,6 +125,25 @@ Neighbourhood MeasureNeighbourhood(const Int3& vertex, std::span<const Int3> nei
   result.min_z = low;
   if (!(result.range_rho > 0)) result.range_rho = scale;
   return result;
+}
+
+Neighbourhood::Outlook Neighbourhood::Towards(double cosine, double sine) const {
+  Outlook outlook;
+  double weights = 0;
+  for (const Direction& direction : directions) {
+    double nearness = 1.02 + direction.x * cosine + direction.y * sine;
+    double weight = nearness * nearness;
+    weight = weight * weight;
+    weight = weight * weight;
+    weights = weights + weight;
+    outlook.rho = outlook.rho + weight * direction.rho;
+    outlook.bend = outlook.bend + weight * direction.bend;
+  }
+  if (weights > 0) {
+    outlook.rho = outlook.rho / weights;
+    outlook.bend = outlook.bend / weights;
+  }
+  return outlook;
 }
 
 }  // namespace folprom

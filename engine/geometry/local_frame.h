@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "engine/mesh/types.h"
 
@@ -37,6 +38,22 @@ struct Neighbourhood {
   double range_z = 0;    ///< R_z: spread of the heights, the vertex's own 0 included
   double mean_z = 0;     ///< of the neighbours: the sign tells hollow from hill
   double min_z = 0;      ///< lowest neighbour, at most 0
+
+  /// A neighbour as seen along the axis.
+  struct Direction {
+    double x = 0, y = 0;  ///< unit vector in the tangent plane
+    double rho = 0;       ///< distance from the axis
+    double bend = 0;      ///< height over squared distance: the surface's curvature that way
+  };
+  std::vector<Direction> directions;
+
+  /// What the surface is likely to be like in a direction: the neighbours weighed by how nearly they
+  /// lie that way. All 0 without neighbours.
+  struct Outlook {
+    double rho = 0;
+    double bend = 0;
+  };
+  Outlook Towards(double cosine, double sine) const;
 };
 
 /// Least-squares plane through the vertex and its neighbours. With fewer than three neighbours the

@@ -36,6 +36,13 @@ uint32_t HollowBucket(const Neighbourhood& at, double step) {
   return bucket;
 }
 
+/// Distance of the neighbours in steps, in half octaves.
+constexpr uint32_t kReachBuckets = 16;
+uint32_t ReachBucket(double steps) {
+  int bucket = HalfOctave(static_cast<uint64_t>(std::min(4 * steps, 1e9))) - 2;
+  return static_cast<uint32_t>(std::clamp(bucket, 0, static_cast<int>(kReachBuckets) - 1));
+}
+
 /// Nearest integer of a value that may be anything, kept where 30 bits hold it.
 int32_t RoundToInt(double value) {
   double rounded = std::floor(value + 0.5);
@@ -53,8 +60,8 @@ OffsetCoder::OffsetCoder(const OffsetSettings& settings)
       fewer_({kMostChildren}),
       first_theta_({kMostChildren + 1, 8}),
       theta_({(kMostChildren + 1) * kMostChildren, kSizeBuckets * kMostChildren}),
-      rho_({(kMostChildren + 1) * kMostChildren, kSizeBuckets * 6}),
-      z_({7 * 2 * kMostChildren, kSizeBuckets * 6}),
+      rho_({(kMostChildren + 1) * kMostChildren * kReachBuckets, kSizeBuckets * 6}),
+      z_({7 * 5 * 2 * kMostChildren, kSizeBuckets * 6}),
       half_({3 * 16}) {}
 
 OffsetSteps OffsetCoder::StepsFor(const Neighbourhood& at, double least) const {
@@ -136,13 +143,23 @@ void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const Offse
           int64_t{predicted} + residual, 0, static_cast<int64_t>(levels) - 1));
     }
     if (index.theta >= levels) throw Failure(ErrorKind::kCorrupt, "coded angle out of range");
-    index.rho = rho_.CodeUnsigned(coder, {place, SizeBucket(rho_before) * 6 + steep}, index.rho);
+    double sine, cosine;
+    SinCos(index.theta * steps.theta, &sine, &cosine);
+    Neighbourhood::Outlook outlook = at.Towards(cosine, sine);
+    uint32_t reach = ReachBucket(outlook.rho / steps.rho);
+    index.rho = rho_.CodeUnsigned(
+        coder, {place * kReachBuckets + reach, SizeBucket(rho_before) * 6 + steep}, index.rho);
     rho_before = index.rho;
+    // On a surface bent as the neighbours say the height grows with the square of the distance.
+    double rho = (index.rho + 0.5) * steps.rho;
+    int32_t bent = settings_.predict_height ? RoundToInt(outlook.bend * rho * rho / steps.z) : base;
+    uint32_t bend = std::min(SizeBucket(static_cast<uint64_t>(bent < 0 ? -int64_t{bent} : bent)), 4u);
     int32_t height = z_.CodeSigned(
-        coder, {(hollow * 2 + (i > 0 ? 1 : 0)) * kMostChildren + i, SizeBucket(z_before) * 6 + steep},
-        index.z - base);
-    index.z = RoundToInt(static_cast<double>(height) + base);
-    z_before = static_cast<uint32_t>(index.z < 0 ? -index.z : index.z);
+        coder, {((hollow * 5 + bend) * 2 + (i > 0 ? 1 : 0)) * kMostChildren + i,
+                SizeBucket(z_before) * 6 + steep},
+        RoundToInt(static_cast<double>(index.z) - bent));
+    index.z = RoundToInt(static_cast<double>(height) + bent);
+    z_before = static_cast<uint32_t>(height < 0 ? -height : height);
   }
 }
 

@@ -49,6 +49,12 @@ TEST_F(Config, DefaultFileIsWhatTheProgramPrints) {
   EXPECT_EQ(FromFirstTable(FileText(kConfigs + "default.toml")), printed.out);
 }
 
+TEST_F(Config, PaperFileIsInTheFormThatTheProgramPrints) {
+  const Outcome printed = Effective({"--config", kConfigs + "paper.toml"});
+  ASSERT_EQ(printed.exit_code, 0) << printed.err;
+  EXPECT_EQ(FromFirstTable(FileText(kConfigs + "paper.toml")), printed.out);
+}
+
 TEST_F(Config, EveryKeyStandsInBothFilesAndNoOther) {
   const auto known = KeysOf(toml::parse(Effective({}).out));
   EXPECT_GT(known.size(), 20u);
@@ -82,8 +88,9 @@ TEST_F(Config, PaperFileHoldsThePapersConstants) {
   EXPECT_EQ(codec["hierarchy"].value<std::string>(), "lloyd");
   EXPECT_EQ(codec["representative"].value<std::string>(), "curvature");
   EXPECT_EQ(codec["offsets"].value<std::string>(), "cylindrical");
-  for (const char* key : {"normal_metric", "adaptive_quantisation", "predict_theta",
-                          "predict_height", "split_first", "pivot_order", "nearer_child"}) {
+  for (const char* key :
+       {"subtree_normals", "normal_metric", "adaptive_quantisation", "predict_theta",
+        "predict_height", "split_first", "pivot_order", "nearer_child"}) {
     EXPECT_EQ(codec[key].value<bool>(), true) << key;
   }
 }

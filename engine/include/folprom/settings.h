@@ -44,7 +44,7 @@ struct CodecSettings {
   double gaussian_ratio = 3;         ///< r_g; 0.01 .. 100
 
   // Offsets (sections 2.2 - 2.4)
-  uint32_t quantisation_levels = 32;  ///< Q; 2 .. 4096
+  uint32_t quantisation_levels = 16;  ///< Q; 2 .. 4096
   bool adaptive_quantisation = true;  ///< G_rho = R_rho/Q, G_z = R_z/Q; false: one step for both
   bool predict_theta = true;          ///< section 2.3
   bool predict_height = true;         ///< section 2.3

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+#include "io/container/checksum.h"
+#include "tests/support/codec.h"
+#include "tests/support/files.h"
+#include "tests/support/ply.h"
+#include "tests/support/surfaces.h"
+
+namespace folprom::support {
+namespace {
+
+/// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change of
+/// the format: renew these together with FORMAT.md.
+constexpr uint64_t kDefaultHash = 0;
+constexpr uint64_t kPaperHash = 0;
+constexpr uint64_t kOtherHash = 0;
+
+void ExpectHash(const char* constant, uint64_t expected, const EncodeOptions& options) {
+  TemporaryFolder folder;
+  // Integers only, so that the mesh itself does not depend on a machine's arithmetic.
+  WritePly(folder.File("scan.ply"), IntegerTerrain(90, 70, 1), CoordinateType::kInt);
+  EncodeReport report = Encode(folder.File("scan.ply"), folder.File("scan.folp"), options);
+  EXPECT_EQ(report.vertices, 6300u);
+  uint64_t hash = io::XxHash64(FileBytes(folder.File("scan.folp")));
+  std::ostringstream line;
+  line << "constexpr uint64_t " << constant << " = 0x" << std::hex << hash << ";";
+  EXPECT_EQ(hash, expected) << "the bytes have changed; where that is meant, write\n" << line.str();
+}
+
+TEST(GoldenTest, DefaultSettingsGiveTheKnownBytes) { ExpectHash("kDefaultHash", kDefaultHash, {}); }
+
+TEST(GoldenTest, SettingsOfThePaperInSubtreesGiveTheKnownBytes) {
+  EncodeOptions options;
+  options.bits = 16;
+  CodecSettings& codec = options.codec;
+  codec.subtree_vertices = 700;
+  codec.children = 4;
+  codec.normal_metric = true;
+  codec.metric_a = 1;
+  codec.metric_b = 8;
+  codec.lloyd_iterations = 12;
+  codec.lloyd_threshold = 0.01;
+  codec.representative = Representative::kCurvature;
+  codec.curvature_threshold = 0.1;
+  codec.gaussian_ratio = 3;
+  codec.quantisation_levels = 32;
+  codec.adaptive_quantisation = codec.predict_theta = codec.predict_height = true;
+  codec.split_first = codec.pivot_order = codec.nearer_child = true;
+  codec.layers_per_octave = codec.rounds_per_layer = 2;
+  ExpectHash("kPaperHash", kPaperHash, options);
+}
+
+TEST(GoldenTest, EverythingOffInSubtreesGivesTheKnownBytes) {
+  EncodeOptions options;
+  options.bits = 14;
+  CodecSettings& codec = options.codec;
+  codec.subtree_vertices = 500;
+  codec.children = 7;
+  codec.normal_metric = codec.adaptive_quantisation = false;
+  codec.predict_theta = codec.predict_height = codec.split_first = false;
+  codec.pivot_order = codec.nearer_child = false;
+  codec.representative = Representative::kCentre;
+  codec.layers_per_octave = 3;
+  codec.rounds_per_layer = 1;
+  ExpectHash("kOtherHash", kOtherHash, options);
+}
+
+}  // namespace
+}  // namespace folprom::support

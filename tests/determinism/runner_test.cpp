@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "parallel/runner.h"
+#include "tests/support/codec.h"
+#include "tests/support/files.h"
+#include "tests/support/ply.h"
+#include "tests/support/surfaces.h"
+
+namespace folprom::support {
+namespace {
+
+struct Way {
+  std::string name;
+  std::unique_ptr<parallel::Runner> runner;
+  uint64_t memory_bytes;
+};
+
+/// Ways of running a job that must not show in its result.
+std::vector<Way> Ways(size_t shuffles) {
+  constexpr uint64_t kMiB = uint64_t{1} << 20;
+  std::vector<Way> ways;
+  for (int threads : {1, 2, 3, 8}) {
+    ways.push_back({std::to_string(threads) + " threads", parallel::MakeTbbRunner(threads), 2048 * kMiB});
+  }
+  for (uint64_t seed = 1; seed <= shuffles; ++seed) {
+    ways.push_back({"shuffled with seed " + std::to_string(seed),
+                    parallel::MakeShuffledRunner(seed), 2048 * kMiB});
+  }
+  for (uint64_t memory : {64 * kMiB, 512 * kMiB, 8192 * kMiB}) {
+    ways.push_back({std::to_string(memory / kMiB) + " MiB", parallel::MakeTbbRunner(2), memory});
+  }
+  ways.push_back({"64 MiB, shuffled", parallel::MakeShuffledRunner(99), 64 * kMiB});
+  return ways;
+}
+
+void ExpectEqualBytes(const std::vector<uint8_t>& expected, const std::vector<uint8_t>& actual) {
+  ASSERT_EQ(expected.size(), actual.size());
+  auto [at, other] = std::mismatch(expected.begin(), expected.end(), actual.begin());
+  EXPECT_TRUE(at == expected.end()) << "first difference at byte " << at - expected.begin();
+}
+
+void ExpectSameBytes(const std::string& scan, EncodeOptions options, uint64_t least_subtrees,
+                     size_t shuffles) {
+  TemporaryFolder folder;
+  std::string folp = folder.File("reference.folp"), ply = folder.File("reference.ply");
+  EncodeReport report = Encode(scan, folp, options);
+  EXPECT_GE(report.subtrees, least_subtrees);
+  Decode(folp, ply);
+  std::vector<uint8_t> encoded = FileBytes(folp), decoded = FileBytes(ply);
+  for (const Way& way : Ways(shuffles)) {
+    SCOPED_TRACE(way.name);
+    options.memory_bytes = way.memory_bytes;
+    options.overwrite = true;
+    Encode(scan, folder.File("again.folp"), options, way.runner.get());
+    ExpectEqualBytes(encoded, FileBytes(folder.File("again.folp")));
+    DecodeOptions decode;
+    decode.memory_bytes = way.memory_bytes;
+    decode.overwrite = true;
+    Decode(folp, folder.File("again.ply"), decode, way.runner.get());
+    ExpectEqualBytes(decoded, FileBytes(folder.File("again.ply")));
+  }
+}
+
+TEST(RunnerTest, NeverChangesTheBytesOfASurface) {
+  TemporaryFolder folder;
+  WritePly(folder.File("scan.ply"), BumpySphere(kSanitized ? 6000 : 40000, true, 1),
+           CoordinateType::kFloat);
+  EncodeOptions options;
+  options.codec.subtree_vertices = kSanitized ? 600 : 3000;
+  ExpectSameBytes(folder.File("scan.ply"), options, 10, 5);
+}
+
+TEST(RunnerTest, NeverChangesTheBytesOfManySmallSubtrees) {
+  TemporaryFolder folder;
+  WritePly(folder.File("scan.ply"), BumpySphere(4000, true, 2), CoordinateType::kDouble);
+  EncodeOptions options;
+  options.codec.subtree_vertices = 50;
+  ExpectSameBytes(folder.File("scan.ply"), options, 80, 5);
+}
+
+TEST(RunnerTest, NeverChangesTheBytesOfDragon) {
+  std::string scan = SharedFile("scans/dragon_vrip.ply");
+  if (scan.empty()) GTEST_SKIP() << kNoSharedData;
+  if (kSanitized) GTEST_SKIP() << "too large for a build with sanitizers";
+  ExpectSameBytes(scan, {}, 6, 1);
+}
+
+}  // namespace
+}  // namespace folprom::support

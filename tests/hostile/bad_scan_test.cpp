@@ -1,0 +1,177 @@
+// Scans that are damaged, cut or not finite: an input error or a file that verifies, nothing between.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "parallel/progress.h"
+#include "parallel/runner.h"
+#include "tests/hostile/guarded_child.h"
+#include "tests/hostile/support.h"
+
+namespace folprom::hostile {
+namespace fs = std::filesystem;
+namespace {
+
+/// Encodes `scan`, which may fail only with kInput, and then leaves nothing; what was encoded must
+/// verify. Returns the error's message, empty after success.
+std::string EncodeError(const std::string& scan) {
+  TemporaryFolder folder;
+  auto runner = parallel::MakeSerialRunner();
+  parallel::Progress progress;
+  EncodeOptions options = SmallOptions();
+  options.temporary_folder = folder.path();
+  auto report = EncodeFile(scan, folder.File("out.folp"), options, *runner, progress);
+  if (!report.ok()) {
+    EXPECT_EQ(report.error().kind, ErrorKind::kInput) << scan << ": " << report.error().message;
+    EXPECT_TRUE(folder.Names().empty()) << scan;
+    EXPECT_FALSE(report.error().message.empty());
+    return report.error().message;
+  }
+  EXPECT_EQ(folder.Names(), std::vector<std::string>{"out.folp"}) << scan;
+  DecodeOptions decode;
+  decode.temporary_folder = folder.path();
+  auto verified = VerifyFile(folder.File("out.folp"), scan, decode, *runner, progress);
+  EXPECT_TRUE(verified.ok()) << scan;
+  if (verified.ok()) {
+    EXPECT_TRUE(verified->lossless) << scan << ": " << verified->reason;
+  }
+  return "";
+}
+
+std::string EncodeErrorOfBytes(const std::string& bytes) {
+  TemporaryFolder folder;
+  WriteFile(folder.File("scan.ply"), std::string_view(bytes));
+  return EncodeError(folder.File("scan.ply"));
+}
+
+TestMesh TinyMesh() {
+  TestMesh mesh = WavySheet(4);
+  mesh.faces.resize(5);
+  return mesh;
+}
+
+TEST(BadScan, OfTheMalformedSharedFilesIsRefusedOrVerifies) {
+  if (SharedData().empty()) GTEST_SKIP() << "no shared data: set FOLPROM_SHARED";
+  std::vector<std::string> scans;
+  for (const auto& entry : fs::directory_iterator(SharedData() + "malformed")) {
+    if (entry.path().extension() == ".ply") scans.push_back(entry.path().string());
+  }
+  std::sort(scans.begin(), scans.end());
+  ASSERT_FALSE(scans.empty());
+  const std::string faults = RunGuarded(scans.size(), 60, uint64_t{256} << 20, [&](size_t i) {
+    const std::string message = EncodeError(scans[i]);
+    std::printf("%s: %s\n", fs::path(scans[i]).filename().c_str(),
+                message.empty() ? "encoded, verifies" : message.c_str());
+    std::fflush(stdout);
+    return !::testing::Test::HasFailure();
+  });
+  EXPECT_EQ(faults, "");
+}
+
+TEST(BadScan, CutAtAnyByteIsRefused) {
+  for (PlyForm form : {PlyForm::kLittleEndian, PlyForm::kBigEndian}) {
+    const std::string whole = PlyBytes(TinyMesh(), form);
+    ASSERT_EQ(EncodeErrorOfBytes(whole), "");
+    for (size_t bytes = 0; bytes < whole.size(); ++bytes) {
+      ASSERT_NE(EncodeErrorOfBytes(whole.substr(0, bytes)), "") << bytes;
+    }
+  }
+}
+
+TEST(BadScan, AsTextCutAtAnyByteIsRefusedUnlessANumberIsLeft) {
+  const std::string whole = PlyBytes(TinyMesh(), PlyForm::kAscii);
+  ASSERT_EQ(EncodeErrorOfBytes(whole), "");
+  for (size_t bytes = 0; bytes < whole.size(); ++bytes) {
+    const std::string message = EncodeErrorOfBytes(whole.substr(0, bytes));
+    // The last number may lose digits and stay a number; all before must be missed.
+    const size_t last_number = whole.find_last_of(' ') + 1;
+    if (bytes <= last_number) {
+      ASSERT_NE(message, "") << bytes;
+    }
+  }
+}
+
+TEST(BadScan, WithAnyByteChangedIsRefusedOrVerifies) {
+  const std::string whole = PlyBytes(TinyMesh(), PlyForm::kLittleEndian);
+  const std::string faults = RunGuarded(whole.size(), 60, uint64_t{256} << 20, [&](size_t i) {
+    constexpr uint8_t kChanges[] = {1, 0x80, 0xff};
+    std::string scan = whole;
+    scan[i] = static_cast<char>(static_cast<uint8_t>(scan[i]) ^ kChanges[i % 3]);
+    EncodeErrorOfBytes(scan);
+    return !::testing::Test::HasFailure();
+  });
+  EXPECT_EQ(faults, "");
+}
+
+TEST(BadScan, WithACoordinateThatIsNotFiniteNamesTheVertex) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (double value : {std::nan(""), infinity, -infinity}) {
+    for (PlyForm form : {PlyForm::kAscii, PlyForm::kLittleEndian, PlyForm::kBigEndian}) {
+      TestMesh mesh = WavySheet(12);
+      mesh.positions[137][1] = value;
+      const std::string message = EncodeErrorOfBytes(PlyBytes(mesh, form));
+      EXPECT_NE(message.find("vertex 137"), std::string::npos) << message;
+      EXPECT_NE(message.find("scan.ply"), std::string::npos) << message;
+    }
+  }
+}
+
+TEST(BadScan, WithAnIndexBeyondTheVerticesNamesTheFace) {
+  for (PlyForm form : {PlyForm::kAscii, PlyForm::kLittleEndian, PlyForm::kBigEndian}) {
+    TestMesh mesh = WavySheet(12);
+    mesh.faces[71][2] = 144;
+    const std::string message = EncodeErrorOfBytes(PlyBytes(mesh, form));
+    EXPECT_NE(message.find("face 71"), std::string::npos) << message;
+    EXPECT_NE(message.find("scan.ply"), std::string::npos) << message;
+  }
+}
+
+TEST(BadScan, OfExtremeSizeIsRefusedOrVerifies) {
+  for (double factor : {1e-320, 1e-300, 1e-30, 1e30, 1e300, 1.7e308}) {
+    TestMesh mesh = WavySheet(12);
+    for (auto& p : mesh.positions) {
+      for (double& value : p) value *= factor;
+    }
+    EncodeErrorOfBytes(PlyBytes(mesh));
+    // Both ends of the range: the box itself is not a finite number.
+    mesh.positions[3] = {-factor, -factor, -factor};
+    EncodeErrorOfBytes(PlyBytes(mesh));
+  }
+}
+
+TEST(BadScan, FarFromTheOriginIsRefusedOrVerifies) {
+  for (double offset : {1e3, 1e6, 1e9, 1e12, 1e15, 1e18, -1e15}) {
+    TestMesh mesh = WavySheet(12);
+    for (auto& p : mesh.positions) p[0] += offset;
+    EncodeErrorOfBytes(PlyBytes(mesh));
+  }
+}
+
+TEST(BadScan, WithoutExtentVerifies) {
+  TestMesh point;
+  point.positions.assign(50, {1.5, -2.5, 1e9});
+  point.faces = {{0, 1, 2}, {3, 4, 5}, {6, 6, 6}};
+  EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(point)), "");
+  TestMesh line;
+  for (int i = 0; i < 300; ++i) line.positions.push_back({0, 0, i * 0.25});
+  for (uint32_t i = 0; i + 2 < 300; ++i) line.faces.push_back({i, i + 1, i + 2});
+  EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(line)), "");
+  EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(TestMesh{})), "");
+  EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(TestMesh{{{1, 2, 3}}, {}})), "");
+}
+
+TEST(BadScan, WithExponentiallySpacedVerticesVerifies) {
+  TestMesh mesh;
+  for (int i = 0; i < 600; ++i) {
+    mesh.positions.push_back({std::ldexp(1.0, -i / 4), std::ldexp(1.0, -i / 3), 0});
+  }
+  for (uint32_t i = 0; i + 2 < 600; ++i) mesh.faces.push_back({i, i + 1, i + 2});
+  EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(mesh)), "");
+}
+
+}  // namespace
+}  // namespace folprom::hostile

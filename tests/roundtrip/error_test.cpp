@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/folp_file.h"
+#include "tests/support/codec.h"
+#include "tests/support/files.h"
+#include "tests/support/ply.h"
+#include "tests/support/surface_distance.h"
+#include "tests/support/surfaces.h"
+
+namespace folprom::support {
+namespace {
+
+/// Mean distance of every `step`-th vertex of the original from each LOD.
+std::vector<double> MeanErrors(const Mesh& original, const std::string& folp, size_t step) {
+  std::vector<double> means;
+  std::vector<uint8_t> bytes = FileBytes(folp);
+  MemoryDecoder decoder = MemoryDecoder::Open(bytes).value();
+  while (means.size() < decoder.layer_count()) {
+    decoder.DecodeNextLayer().value();
+    Mesh lod = decoder.Mesh();
+    SurfaceDistance distance(lod);
+    double sum = 0;
+    size_t samples = 0;
+    for (size_t v = 0; v < original.positions.size(); v += step, ++samples) {
+      sum += distance.To(original.positions[v]);
+    }
+    means.push_back(sum / static_cast<double>(samples));
+  }
+  return means;
+}
+
+void ExpectErrorFalls(const Mesh& original, const std::string& scan, const EncodeOptions& options,
+                      size_t step) {
+  TemporaryFolder folder;
+  std::string folp = folder.File("scan.folp");
+  Encode(scan, folp, options);
+  size_t split_layers = FolpFile(folp).parameters().schedule.split_layers();
+  std::vector<double> means = MeanErrors(original, folp, step);
+  for (size_t layer = 1; layer < means.size(); ++layer) {
+    EXPECT_LE(means[layer], means[layer - 1] * 1.01)
+        << "from layer " << layer - 1 << " to " << layer << " of " << means.size() << ", "
+        << split_layers << " of which split";
+  }
+  EXPECT_LT(means[split_layers - 1], means[0] / 100);
+  EXPECT_LT(means.back(), means[split_layers - 1]);
+}
+
+TEST(ErrorTest, FallsFromLayerToLayerOnASyntheticSurface) {
+  TemporaryFolder folder;
+  Mesh mesh = BumpySphere(20000, false, 1);
+  WritePly(folder.File("scan.ply"), mesh, CoordinateType::kDouble);
+  EncodeOptions options;
+  options.codec.subtree_vertices = 6000;
+  ExpectErrorFalls(mesh, folder.File("scan.ply"), options, 7);
+}
+
+TEST(ErrorTest, FallsFromLayerToLayerOnDragon) {
+  std::string scan = SharedFile("scans/dragon_vrip.ply");
+  if (scan.empty()) GTEST_SKIP() << kNoSharedData;
+  if (kSanitized) GTEST_SKIP() << "too large for a build with sanitizers";
+  ExpectErrorFalls(ReadPly(scan).mesh, scan, {}, 100);
+}
+
+}  // namespace
+}  // namespace folprom::support

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+
+#include "tests/support/codec.h"
+#include "tests/support/files.h"
+#include "tests/support/meshes.h"
+#include "tests/support/ply.h"
+#include "tests/support/same_mesh.h"
+
+namespace folprom::support {
+namespace {
+
+constexpr uint32_t kOneSubtree = 1 << 24;
+
+class SmallMeshTest : public ::testing::TestWithParam<std::tuple<size_t, uint32_t>> {
+ protected:
+  const SmallMesh& small() const { return SmallMeshes()[std::get<0>(GetParam())]; }
+  EncodeOptions Options() const {
+    EncodeOptions options;
+    options.bits = small().bits;
+    options.codec.subtree_vertices = std::get<1>(GetParam());
+    return options;
+  }
+};
+
+TEST_P(SmallMeshTest, ComesBackWhole) {
+  TemporaryFolder folder;
+  std::string scan = folder.File("scan.ply"), folp = folder.File("scan.folp");
+  std::string out = folder.File("out.ply");
+  WritePly(scan, small().make(), small().type);
+  Mesh original = ReadPly(scan).mesh;
+
+  EncodeReport encoded = Encode(scan, folp, Options());
+  EXPECT_EQ(encoded.vertices, original.positions.size());
+  EXPECT_EQ(encoded.faces, original.faces.size());
+  DecodeReport decoded = Decode(folp, out);
+  EXPECT_TRUE(decoded.complete);
+  EXPECT_EQ(decoded.vertices, original.positions.size());
+  EXPECT_EQ(decoded.faces, original.faces.size());
+
+  VerifyReport by_digest = Verify(folp, "");
+  EXPECT_TRUE(by_digest.lossless) << by_digest.reason;
+  VerifyReport by_scan = Verify(folp, scan);
+  EXPECT_TRUE(by_scan.lossless) << by_scan.reason;
+  EXPECT_LE(by_scan.max_position_error, by_scan.tolerance * (1 + 1e-9));
+
+  Mesh written = ReadPly(out).mesh;
+  EXPECT_EQ(written.positions.size(), original.positions.size());
+  EXPECT_EQ(written.faces.size(), original.faces.size());
+  if (small().positions_tell) {
+    EXPECT_EQ(DifferenceOf(original, written, by_scan.tolerance), "") << "as written to a file";
+    EXPECT_EQ(DifferenceOf(original, LodOf(folp), by_scan.tolerance), "") << "as decoded in memory";
+  }
+  EXPECT_EQ(folder.Names(), (std::vector<std::string>{"out.ply", "scan.folp", "scan.ply"}));
+}
+
+std::vector<size_t> EverySmallMesh() {
+  std::vector<size_t> numbers;
+  for (size_t i = 0; i < SmallMeshes().size(); ++i) numbers.push_back(i);
+  return numbers;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    InSubtreesOf, SmallMeshTest,
+    ::testing::Combine(::testing::ValuesIn(EverySmallMesh()),
+                       ::testing::Values(kOneSubtree, 50u, 7u, 1u)),
+    [](const auto& given) {
+      uint32_t vertices = std::get<1>(given.param);
+      return SmallMeshes()[std::get<0>(given.param)].name + "_" +
+             (vertices == kOneSubtree ? "All" : std::to_string(vertices));
+    });
+
+/// Counts, positions and faces are compared above; that the comparison itself sees faults is proven
+/// here.
+TEST(MeshComparisonTest, SeesAReversedFace) {
+  Mesh a = RandomFaces(30, 60, 1), b = a;
+  std::swap(b.faces[7][0], b.faces[7][1]);
+  EXPECT_EQ(DifferenceOf(a, a, 1e-6), "");
+  EXPECT_NE(DifferenceOf(a, b, 1e-6), "");
+}
+
+TEST(MeshComparisonTest, SeesFacesOfCoincidentVerticesExchanged) {
+  Mesh a{{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 3}, {0, 3, 4}, {1, 2, 4}}};
+  Mesh b = a, c = a;
+  b.faces = {{1, 2, 3}, {1, 3, 4}, {0, 2, 4}};  // the two vertices renamed
+  c.faces = {{0, 2, 3}, {1, 3, 4}, {1, 2, 4}};
+  EXPECT_EQ(DifferenceOf(a, b, 1e-6), "");
+  EXPECT_NE(DifferenceOf(a, c, 1e-6), "");
+}
+
+TEST(MeshComparisonTest, SeesAVertexTooFarAway) {
+  Mesh a = RandomFaces(30, 60, 2), b = a, c = a;
+  b.positions[3][1] += 0.9e-3;
+  c.positions[3][1] += 1.1e-3;
+  EXPECT_EQ(DifferenceOf(a, b, 1e-3), "");
+  EXPECT_NE(DifferenceOf(a, c, 1e-3), "");
+}
+
+}  // namespace
+}  // namespace folprom::support

@@ -22,6 +22,8 @@ constexpr const char* kDescription =
     "  folprom decode scan.folp -o preview.ply --max-vertices 100k\n"
     "  folprom decode scan.folp -o scan.ply\n"
     "  folprom verify scan.folp --against scan.ply\n"
+    "  folprom compare scan.ply preview.ply\n"
+    "  folprom rd scan.ply -o curve\n"
     "  folprom synth --vertices 10M -o scan.ply";
 
 constexpr const char* kFooter =
@@ -69,7 +71,7 @@ int Run(int argc, char** argv) {
   program.set_version_flag("--version", "folprom " FOLPROM_VERSION);
   program.require_subcommand(0, 1);
   const Verb verbs[] = {AddEncode(program), AddDecode(program), AddInfo(program),
-                        AddVerify(program), AddSynth(program)};
+                        AddVerify(program), AddCompare(program), AddRd(program), AddSynth(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -80,7 +82,7 @@ int Run(int argc, char** argv) {
   for (const Verb& verb : verbs) {
     if (verb.parser->parsed()) return verb.run();
   }
-  return Report({ErrorKind::kUsage, "no verb given: encode, decode, info, verify or synth"});
+  return Report({ErrorKind::kUsage, "no verb given: encode, decode, info, verify, compare, rd or synth"});
 }
 
 }  // namespace

@@ -163,15 +163,19 @@ CLI::Option* AddPositiveOption(CLI::App* verb, const std::string& name,
       ->type_name(type);
 }
 
-void AddWorkFlags(CLI::App* verb, WorkFlags* flags) {
+void AddThreadFlags(CLI::App* verb, WorkFlags* flags) {
   verb->add_option("-T,--threads", flags->threads, "Threads; 0 (the default) for all")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
-  AddBytesOption(verb, "-M,--memory", &flags->memory,
-                 "Resident size to stay below, 512MiB or 2G; never alters the result");
   verb->add_option("--tmp", flags->temporary_folder,
                    "Folder for temporary files; else $TMPDIR or /tmp")
       ->type_name("DIR");
+}
+
+void AddWorkFlags(CLI::App* verb, WorkFlags* flags) {
+  AddThreadFlags(verb, flags);
+  AddBytesOption(verb, "-M,--memory", &flags->memory,
+                 "Resident size to stay below, 512MiB or 2G; never alters the result");
 }
 
 void AddRunnerFlag(CLI::App* verb, WorkFlags* flags) {

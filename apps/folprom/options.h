@@ -42,7 +42,9 @@ struct WorkFlags {
 
 /// --json -q -v
 void AddCommonFlags(CLI::App* verb, CommonFlags* flags);
-/// -T -M --tmp
+/// -T --tmp, for verbs that hold whole meshes and so keep no memory limit.
+void AddThreadFlags(CLI::App* verb, WorkFlags* flags);
+/// -T --tmp -M
 void AddWorkFlags(CLI::App* verb, WorkFlags* flags);
 /// --runner, which only tests need.
 void AddRunnerFlag(CLI::App* verb, WorkFlags* flags);

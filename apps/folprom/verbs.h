@@ -20,6 +20,8 @@ Verb AddEncode(CLI::App& program);
 Verb AddDecode(CLI::App& program);
 Verb AddInfo(CLI::App& program);
 Verb AddVerify(CLI::App& program);
+Verb AddCompare(CLI::App& program);
+Verb AddRd(CLI::App& program);
 Verb AddSynth(CLI::App& program);
 
 }  // namespace folprom::cli

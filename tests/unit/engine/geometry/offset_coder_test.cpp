@@ -1,0 +1,202 @@
+#include "engine/geometry/offset_coder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engine/entropy/bit_coder.h"
+#include "folprom/result.h"
+
+namespace folprom {
+namespace {
+
+constexpr double kLeast = 30.5;
+
+/// A vertex with a ring of about `spacing`, and its neighbourhood.
+Neighbourhood RandomNeighbourhood(std::mt19937_64& random, double spacing) {
+  std::uniform_real_distribution<double> part(-1, 1);
+  const Int3 vertex{1 << 28, 1 << 28, 1 << 28};
+  std::vector<Int3> ring;
+  for (uint64_t i = 0; i < random() % 9; ++i) {
+    auto at = [&](double flat) { return (1 << 28) + static_cast<int32_t>(flat * spacing * part(random)); };
+    ring.push_back({at(1), at(1), at(0.2)});
+  }
+  return MeasureNeighbourhood(vertex, ring, spacing);
+}
+
+std::vector<OffsetSettings> AllSettings() {
+  std::vector<OffsetSettings> all;
+  for (uint32_t children : {2u, 3u, 4u, 8u}) {
+    for (uint32_t levels : {2u, 32u, 4096u}) {
+      for (bool on : {true, false}) {
+        all.push_back({children, levels, on, on, on});
+        all.push_back({children, levels, on, !on, on});
+        all.push_back({children, levels, on, on, !on});
+      }
+    }
+  }
+  return all;
+}
+
+TEST(OffsetCoder, StepsFollowTheRangesAndNeverFallBelowTheLeast) {
+  Neighbourhood at;
+  at.range_rho = 32000;
+  at.range_z = 640;
+  OffsetSteps steps = OffsetCoder({4, 32, true, true, true}).StepsFor(at, kLeast);
+  EXPECT_EQ(steps.rho, 1000);
+  EXPECT_EQ(steps.z, kLeast);
+  EXPECT_NEAR(steps.theta, 2 * kPi / 32, 1e-15);
+  steps = OffsetCoder({4, 32, false, true, true}).StepsFor(at, kLeast);
+  EXPECT_EQ(steps.rho, 1000);
+  EXPECT_EQ(steps.z, 1000);
+}
+
+TEST(OffsetCoder, CellHoldsThePointThatWasQuantised) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (const OffsetSettings& settings : AllSettings()) {
+    const OffsetCoder coder(settings);
+    for (int round = 0; round < 300; ++round) {
+      const double spacing = std::exp2(8 + static_cast<double>(random() % 16));
+      const Neighbourhood at = RandomNeighbourhood(random, spacing);
+      const OffsetSteps steps = coder.StepsFor(at, kLeast);
+      auto near = [&] { return (1 << 28) + static_cast<int32_t>(spacing * part(random)); };
+      const Int3 point{near(), near(), near()};
+      const OffsetIndex index = coder.Quantise(at, steps, point);
+      ASSERT_LT(index.theta, settings.levels);
+      const CylinderCell cell = coder.CellOf(at, steps, index);
+      const CylinderPoint local = ToCylinder(at.frame, point);
+      EXPECT_LE(std::fabs(local.rho - cell.centre.rho), steps.rho / 2 * (1 + 1e-9));
+      EXPECT_LE(std::fabs(local.z - cell.centre.z), steps.z / 2 * (1 + 1e-9));
+      double turn = std::fabs(local.theta - cell.centre.theta);
+      turn = std::min(turn, 2 * kPi - turn);
+      EXPECT_LE(turn, steps.theta / 2 * (1 + 1e-9));
+    }
+  }
+}
+
+/// One split: what is coded for it.
+struct Split {
+  OffsetCoder::SetContext context;
+  Neighbourhood at;
+  uint32_t count;
+  std::vector<OffsetIndex> offsets;
+};
+
+std::vector<Split> RandomSplits(const OffsetSettings& settings, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Split> splits;
+  for (int i = 0; i < 300; ++i) {
+    Split split;
+    split.context = {std::exp2(static_cast<double>(random() % 34)), static_cast<uint32_t>(random() % 9),
+                     static_cast<uint32_t>(random() % 9)};
+    split.at = RandomNeighbourhood(random, 1e5);
+    split.count = 1 + static_cast<uint32_t>(random() % settings.children);
+    for (uint32_t c = 0; c < split.count; ++c) {
+      const uint32_t size = static_cast<uint32_t>(random() % 29);
+      split.offsets.push_back({static_cast<uint32_t>(random() % settings.levels),
+                               static_cast<uint32_t>(random() & ((1u << size) - 1)),
+                               static_cast<int32_t>(random() & ((1u << size) - 1)) *
+                                   (random() % 2 == 0 ? 1 : -1)});
+    }
+    std::sort(split.offsets.begin(), split.offsets.end(), [](const auto& a, const auto& b) {
+      return std::tuple(a.theta, a.rho, a.z) < std::tuple(b.theta, b.rho, b.z);
+    });
+    splits.push_back(split);
+  }
+  return splits;
+}
+
+TEST(OffsetCoder, GivesBackCountsAndOffsets) {
+  for (const OffsetSettings& settings : AllSettings()) {
+    std::vector<Split> splits = RandomSplits(settings, settings.levels + settings.children);
+    OffsetCoder written(settings), read(settings);
+    BitEncoder encoder;
+    for (Split& split : splits) {
+      ASSERT_EQ(written.CodeChildCount(encoder, split.context, split.count), split.count);
+      if (split.count == 1) continue;
+      const OffsetSteps steps = written.StepsFor(split.at, kLeast);
+      written.CodeOffsets(encoder, split.at, steps, split.count, &split.offsets);
+    }
+    const auto bytes = encoder.TakeSegment();
+    BitDecoder decoder;
+    decoder.StartSegment(bytes);
+    std::vector<OffsetIndex> offsets;
+    for (const Split& split : splits) {
+      ASSERT_EQ(read.CodeChildCount(decoder, split.context, 0), split.count);
+      if (split.count == 1) continue;
+      read.CodeOffsets(decoder, split.at, read.StepsFor(split.at, kLeast), split.count, &offsets);
+      ASSERT_EQ(offsets.size(), split.count);
+      for (uint32_t c = 0; c < split.count; ++c) {
+        ASSERT_EQ(offsets[c].theta, split.offsets[c].theta);
+        ASSERT_EQ(offsets[c].rho, split.offsets[c].rho);
+        ASSERT_EQ(offsets[c].z, split.offsets[c].z);
+      }
+    }
+  }
+}
+
+TEST(OffsetCoder, GivesBackHalves) {
+  std::mt19937_64 random(3);
+  std::vector<std::pair<CylinderCell, bool>> halves;
+  for (int i = 0; i < 5000; ++i) {
+    CylinderCell cell;
+    cell.width = {static_cast<double>(random() % 1000), 0.1, 5};
+    cell.centre.rho = static_cast<double>(random() % 100000);
+    halves.emplace_back(cell, random() % 3 == 0);
+  }
+  OffsetCoder written({}), read({});
+  BitEncoder encoder;
+  for (size_t i = 0; i < halves.size(); ++i) {
+    const auto dimension = static_cast<CylinderCell::Dimension>(i % 3);
+    written.CodeHalf(encoder, halves[i].first, dimension, halves[i].second);
+  }
+  const auto bytes = encoder.TakeSegment();
+  BitDecoder decoder;
+  decoder.StartSegment(bytes);
+  for (size_t i = 0; i < halves.size(); ++i) {
+    const auto dimension = static_cast<CylinderCell::Dimension>(i % 3);
+    ASSERT_EQ(read.CodeHalf(decoder, halves[i].first, dimension, false), halves[i].second);
+  }
+}
+
+TEST(OffsetCoder, RandomBytesGiveIndicesInRangeOrAnError) {
+  std::mt19937_64 random(4);
+  for (int round = 0; round < 2000; ++round) {
+    const auto all = AllSettings();
+    const OffsetSettings& settings = all[random() % all.size()];
+    OffsetCoder coder(settings);
+    std::vector<uint8_t> bytes(random() % 60);
+    for (auto& byte : bytes) byte = static_cast<uint8_t>(random());
+    BitDecoder decoder;
+    decoder.StartSegment(bytes);
+    const Neighbourhood at = RandomNeighbourhood(random, 1e6);
+    const OffsetSteps steps = coder.StepsFor(at, kLeast);
+    std::vector<OffsetIndex> offsets;
+    try {
+      while (true) {
+        const uint32_t count = coder.CodeChildCount(decoder, {1e6, 2, 3}, 0);
+        ASSERT_GE(count, 1u);
+        ASSERT_LE(count, settings.children);
+        if (count == 1) continue;
+        coder.CodeOffsets(decoder, at, steps, count, &offsets);
+        for (const OffsetIndex& index : offsets) {
+          ASSERT_LT(index.theta, settings.levels);
+          const Int3 extent{(1 << 30) - 1, 1000, 0};
+          const Int3 p = coder.CellOf(at, steps, index).Position(extent);
+          ASSERT_TRUE(p.x >= 0 && p.x <= extent.x && p.y >= 0 && p.y <= 1000 && p.z == 0);
+        }
+      }
+    } catch (const Failure& failure) {
+      ASSERT_EQ(failure.error().kind, ErrorKind::kCorrupt);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace folprom

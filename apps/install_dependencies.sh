@@ -2,9 +2,9 @@
 # Installs the Debian packages that the build and the tests need. Does nothing when all are there.
 set -eu
 
-packages="cmake g++ libboost-iostreams-dev libcli11-dev libembree-dev libfast-float-dev libgtest-dev
-  libopenvdb-dev libspdlog-dev libtbb-dev libtomlplusplus-dev libxxhash-dev ninja-build
-  nlohmann-json3-dev zlib1g-dev"
+packages="cmake g++ libboost-iostreams-dev libcli11-dev libeigen3-dev libembree-dev libfast-float-dev
+  libgtest-dev libopenvdb-dev libspdlog-dev libtbb-dev libtomlplusplus-dev libxxhash-dev
+  ninja-build nlohmann-json3-dev zlib1g-dev"
 
 missing=
 for package in $packages; do

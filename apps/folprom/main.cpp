@@ -82,7 +82,8 @@ int Run(int argc, char** argv) {
   for (const Verb& verb : verbs) {
     if (verb.parser->parsed()) return verb.run();
   }
-  return Report({ErrorKind::kUsage, "no verb given: encode, decode, info, verify, compare, rd or synth"});
+  return Report({ErrorKind::kUsage,
+                 "no verb given: encode, decode, info, verify, compare, rd or synth"});
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "engine/hierarchy/lloyd_tree.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,8 +27,8 @@ class LloydBuilder {
     tree_.order_.reserve(positions.size());
     for (uint32_t i = 0; i < positions.size(); ++i) {
       const Int3& p = positions[i];
-      points_.push_back({{scale_ * p.x, scale_ * p.y, scale_ * p.z},
-                         surface.normals[i], surface.curvature[i]});
+      points_.push_back({scale_ * Eigen::Vector3d(p.x, p.y, p.z), surface.normals[i],
+                         surface.curvature[i]});
       tree_.order_.push_back(i);
     }
     scratch_points_.resize(points_.size());
@@ -55,18 +56,16 @@ class LloydBuilder {
 
  private:
   struct Point {
-    Vector3 position;  ///< paper units
-    Vector3 normal;
+    Eigen::Vector3d position;  ///< paper units
+    Eigen::Vector3d normal;
     double curvature;
   };
   struct Centre {
-    Vector3 position, normal;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
-  static double Length(const Vector3& a, const Vector3& b) {
-    Vector3 d{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    return std::sqrt(Dot(d, d));
-  }
+  static double Length(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
   double Distance(const Point& point, const Centre& centre) const {
     double euclidean = Length(point.position, centre.position);
     if (normal_weight_ == 0) return euclidean;
@@ -74,22 +73,18 @@ class LloydBuilder {
   }
 
   Centre MeanOf(uint32_t begin, uint32_t end) const {
-    Centre mean{{0, 0, 0}, {0, 0, 0}};
+    Centre mean;
     for (uint32_t i = begin; i < end; ++i) AddTo(&mean, points_[i]);
     return Normalised(mean, end - begin);
   }
   static void AddTo(Centre* sum, const Point& point) {
-    for (size_t k = 0; k < 3; ++k) {
-      sum->position[k] = sum->position[k] + point.position[k];
-      sum->normal[k] = sum->normal[k] + point.normal[k];
-    }
+    sum->position += point.position;
+    sum->normal += point.normal;
   }
   static Centre Normalised(Centre sum, uint32_t count) {
-    double length = std::sqrt(Dot(sum.normal, sum.normal));
-    for (size_t k = 0; k < 3; ++k) {
-      sum.position[k] = sum.position[k] / count;
-      sum.normal[k] = length > 0 ? sum.normal[k] / length : 0;
-    }
+    double length = sum.normal.norm();
+    sum.position /= count;
+    if (length > 0) sum.normal /= length;
     return sum;
   }
 

@@ -1,16 +1,16 @@
 // Normals and curvatures of the original vertices. Encoder only.
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
-#include "engine/geometry/local_frame.h"
 #include "engine/mesh/types.h"
 
 namespace folprom {
 
 struct SurfaceAttributes {
-  std::vector<Vector3> normals;   ///< unit, area-weighted over the adjacent faces; 0 where undefined
+  std::vector<Eigen::Vector3d> normals;  ///< unit, area-weighted over the adjacent faces; 0 where undefined
   std::vector<double> curvature;  ///< c_i of section 2.1: deviation of adjacent face normals, 0 .. 1
 };
 

@@ -164,6 +164,25 @@ TEST(BadScan, WithoutExtentVerifies) {
   EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(TestMesh{{{1, 2, 3}}, {}})), "");
 }
 
+TEST(BadScan, OfNeedlesVerifies) {
+  // Tips straight above the vertices of a tilted plane, so that neighbours lie on the axis.
+  for (double height : {0.05, -1.0, 1.0}) {
+    TestMesh mesh;
+    constexpr uint32_t kSide = 18;
+    for (uint32_t i = 0; i < kSide * kSide; ++i) {
+      const double x = i % kSide * 0.1, y = i / kSide * 0.1;
+      const double tip = i % 2 == 0 ? height : -height;
+      mesh.positions.push_back({x, y, 0.3 * x + 0.7 * y});
+      mesh.positions.push_back({x - 0.3 * tip, y - 0.7 * tip, 0.3 * x + 0.7 * y + tip});
+      if (i % kSide + 1 == kSide || i / kSide + 1 == kSide) continue;
+      mesh.faces.push_back({2 * i, 2 * i + 2, 2 * (i + kSide)});
+      mesh.faces.push_back({2 * i, 2 * i + 1, 2 * i + 2});
+      mesh.faces.push_back({2 * i, 2 * i + 1, 2 * (i + kSide)});
+    }
+    EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(mesh)), "") << height;
+  }
+}
+
 TEST(BadScan, WithExponentiallySpacedVerticesVerifies) {
   TestMesh mesh;
   for (int i = 0; i < 600; ++i) {

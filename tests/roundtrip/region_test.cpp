@@ -113,6 +113,18 @@ TEST_F(RegionTest, OfOnePointHoldsTheVertexThere) {
   }
 }
 
+/// The representative of a coarse LOD can lie outside the box of the vertices it stands for.
+TEST_F(RegionTest, OfOnePointHoldsTheLodVertexThere) {
+  Code(BumpySphere(1500, true, 7), 100);
+  std::vector<Mesh> lods = EveryLod(folp_);
+  for (uint32_t layers = 1; layers <= lods.size(); ++layers) {
+    const std::vector<Point>& positions = lods[layers - 1].positions;
+    for (size_t v = 0; v < positions.size(); v += 1 + positions.size() / 40) {
+      ExpectPart(lods[layers - 1], {"Vertex" + std::to_string(v), positions[v], positions[v]}, layers);
+    }
+  }
+}
+
 TEST_F(RegionTest, ReadsOnlyPartOfTheFile) {
   Code(BumpySphere(6000, false, 5), 300);
   Box patch{"Patch", {0.9, -0.2, -0.2}, {1.3, 0.1, 0.1}};

@@ -114,14 +114,15 @@ std::vector<Split> RandomSplits(const OffsetSettings& settings, uint64_t seed) {
 
 TEST(OffsetCoder, GivesBackCountsAndOffsets) {
   for (const OffsetSettings& settings : AllSettings()) {
-    std::vector<Split> splits = RandomSplits(settings, settings.levels + settings.children);
+    const std::vector<Split> splits = RandomSplits(settings, settings.levels + settings.children);
     OffsetCoder written(settings), read(settings);
     BitEncoder encoder;
-    for (Split& split : splits) {
+    for (const Split& split : splits) {
       ASSERT_EQ(written.CodeChildCount(encoder, split.context, split.count), split.count);
       if (split.count == 1) continue;
       const OffsetSteps steps = written.StepsFor(split.at, kLeast);
-      written.CodeOffsets(encoder, split.at, steps, split.count, &split.offsets);
+      std::vector<OffsetIndex> offsets = split.offsets;
+      written.CodeOffsets(encoder, split.at, steps, split.count, &offsets);
     }
     const auto bytes = encoder.TakeSegment();
     BitDecoder decoder;
@@ -136,6 +137,35 @@ TEST(OffsetCoder, GivesBackCountsAndOffsets) {
         ASSERT_EQ(offsets[c].theta, split.offsets[c].theta);
         ASSERT_EQ(offsets[c].rho, split.offsets[c].rho);
         ASSERT_EQ(offsets[c].z, split.offsets[c].z);
+      }
+    }
+  }
+}
+
+TEST(OffsetCoder, GivesBackHeightsBesideANeighbourOnTheAxis) {
+  // A ring in a plane and one neighbour above the vertex: height over squared distance says nothing.
+  for (double reach : {0.0, 1e-11, 1e-6, 1.0}) {
+    for (double bend : {-1e30, -1e9, -1.0, 0.0, 1.0, 1e9, 1e30}) {
+      Neighbourhood at;
+      at.range_rho = 4000;
+      at.range_z = 4000;
+      at.directions.push_back({1, 0, reach, bend});
+      std::vector<std::vector<OffsetIndex>> all;
+      for (int32_t z : {0, 1, -1, 37, -37, 1000000, -1000000}) all.push_back({{3, 8, z}, {9, 2, -z}});
+      OffsetCoder written({}), read({});
+      BitEncoder encoder;
+      const OffsetSteps steps = written.StepsFor(at, kLeast);
+      for (std::vector<OffsetIndex> offsets : all) {
+        written.CodeOffsets(encoder, at, steps, 2, &offsets);
+      }
+      const auto bytes = encoder.TakeSegment();
+      BitDecoder decoder;
+      decoder.StartSegment(bytes);
+      std::vector<OffsetIndex> offsets;
+      for (const auto& expected : all) {
+        read.CodeOffsets(decoder, at, steps, 2, &offsets);
+        EXPECT_EQ(offsets[0].z, expected[0].z) << reach << " " << bend;
+        EXPECT_EQ(offsets[1].z, expected[1].z) << reach << " " << bend;
       }
     }
   }

@@ -1,0 +1,28 @@
+// A rate-distortion curve as a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace folprom::cli {
+
+struct PlotPoint {
+  double rate = 0;   ///< bits per vertex
+  double error = 0;  ///< 1e-4 of the diagonal
+};
+
+struct PlotSeries {
+  std::string name;
+  std::vector<PlotPoint> points;
+};
+
+struct RatePlot {
+  std::string title;
+  std::string subtitle;
+  std::vector<PlotSeries> series;  ///< at most three; the first one is drawn boldest
+};
+
+/// An SVG with both axes logarithmic. Points without rate or error have no place and are left out.
+std::string SvgOf(const RatePlot& plot);
+
+}  // namespace folprom::cli

@@ -144,7 +144,7 @@ class Drawing {
         "original]</text>\n",
         (kLeft + kRight) / 2, kBottom + 46);
     Add("<text transform=\"translate(26 {}) rotate(-90)\" text-anchor=\"middle\">mean surface "
-        "distance [10<tspan dy=\"-5\" font-size=\"10\">−4</tspan><tspan dy=\"5\"> of the "
+        "distance [10<tspan dy=\"-5\" font-size=\"10\">−4</tspan><tspan dy=\"5\">&#160;of the "
         "diagonal]</tspan></text>\n",
         (kTop + kBottom) / 2);
   }

@@ -34,7 +34,6 @@ class LloydBuilder {
     scratch_points_.resize(points_.size());
     scratch_order_.resize(points_.size());
     cluster_.resize(points_.size());
-    distance_.resize(points_.size());
     positions_ = positions;
   }
 
@@ -176,7 +175,7 @@ class LloydBuilder {
     Centre mean = MeanOf(begin, end);
     normal_weight_ = NormalWeight(begin, end, mean);
     std::array<Centre, kMostChildren> centres{};
-    Seed(begin, end, children, mean, &centres);
+    Seed(begin, end, children, &centres);
     double before = 0;
     for (uint32_t iteration = 0; iteration < settings_.lloyd_iterations; ++iteration) {
       double distortion = Assign(begin, end, children, centres);
@@ -189,21 +188,53 @@ class LloydBuilder {
     return std::all_of(sizes.begin(), sizes.begin() + children, [](uint32_t n) { return n > 0; });
   }
 
-  /// Farthest point first, from the mean.
-  void Seed(uint32_t begin, uint32_t end, uint32_t children, const Centre& mean,
+  /// Cuts the part that is widest along a coordinate axis at its mean, until there are enough parts;
+  /// their means are the first centres. Farthest points as seeds leave outliers as sets of their own
+  /// high up in the tree, where positions are still coarse.
+  void Seed(uint32_t begin, uint32_t end, uint32_t children,
             std::array<Centre, kMostChildren>* centres) {
-    Centre last = mean;
-    for (uint32_t c = 0; c < children; ++c) {
-      uint32_t farthest = begin;
+    std::fill(cluster_.begin() + begin, cluster_.begin() + end, uint8_t{0});
+    for (uint32_t made = 1; made < children; ++made) {
+      auto [widest, axis, mean] = WidestPart(begin, end, made);
       for (uint32_t i = begin; i < end; ++i) {
-        double distance = Distance(points_[i], last);
-        // The mean itself is no centre: its distances count for the first choice only.
-        if (c <= 1 || distance < distance_[i]) distance_[i] = distance;
-        if (distance_[i] > distance_[farthest]) farthest = i;
+        if (cluster_[i] == widest && points_[i].position[axis] > mean) {
+          cluster_[i] = static_cast<uint8_t>(made);
+        }
       }
-      (*centres)[c] = {points_[farthest].position, points_[farthest].normal};
-      last = (*centres)[c];
     }
+    Update(begin, end, children, centres);
+  }
+
+  struct Part {
+    uint32_t cluster;
+    int axis;
+    double mean;
+  };
+  Part WidestPart(uint32_t begin, uint32_t end, uint32_t parts) const {
+    std::array<Eigen::Vector3d, kMostChildren> sums, squares;
+    sums.fill(Eigen::Vector3d::Zero());
+    squares.fill(Eigen::Vector3d::Zero());
+    std::array<double, kMostChildren> counts{};
+    for (uint32_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d& position = points_[i].position;
+      sums[cluster_[i]] += position;
+      squares[cluster_[i]] += position.cwiseProduct(position);
+      counts[cluster_[i]] += 1;
+    }
+    Part widest{0, 0, 0};
+    double most = -1;
+    for (uint32_t c = 0; c < parts; ++c) {
+      if (counts[c] == 0) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        double mean = sums[c][axis] / counts[c];
+        double spread = squares[c][axis] - sums[c][axis] * mean;
+        if (spread > most) {
+          most = spread;
+          widest = {c, axis, mean};
+        }
+      }
+    }
+    return widest;
   }
 
   double Assign(uint32_t begin, uint32_t end, uint32_t children,
@@ -263,7 +294,6 @@ class LloydBuilder {
   std::vector<Point> points_, scratch_points_;
   std::vector<uint32_t> scratch_order_;
   std::vector<uint8_t> cluster_;
-  std::vector<double> distance_;
   SetTree tree_;
 };
 

@@ -26,11 +26,14 @@ class RateJob {
     const EncodeReport report =
         EncodeFile(scan_, encoded_, options_, runner_, progress_).value();
     RateCurve curve{report.vertices, report.faces, report.bytes, {}, report.warnings};
+    const FileInfo info = ReadInfo(encoded_).value();
     measure::Original original(
         measure::ReadMesh(scan_, options_.temporary_folder, runner_, progress_), scan_, runner_,
         progress_);
     for (const double rate : rates) {
-      RatePoint point = Decoded(rate, curve.vertices);
+      RatePoint point = Decoded(rate);
+      point.bytes = info.layers[point.layers - 1].end_byte;
+      point.bits_per_vertex = info.layers[point.layers - 1].bits_per_vertex;
       // Rates between the same two layers give the same mesh.
       const auto same = std::find_if(curve.points.begin(), curve.points.end(), [&](const auto& p) {
         return p.layers == point.layers;
@@ -42,7 +45,7 @@ class RateJob {
   }
 
  private:
-  RatePoint Decoded(double rate, uint64_t vertices) const {
+  RatePoint Decoded(double rate) const {
     DecodeOptions options;
     options.bits_per_vertex = rate;
     options.memory_bytes = options_.memory_bytes;
@@ -52,9 +55,6 @@ class RateJob {
         DecodeFile(encoded_, Decoding(), options, runner_, progress_).value();
     RatePoint point;
     point.requested = rate;
-    point.bytes = report.bytes_read;
-    point.bits_per_vertex =
-        8 * static_cast<double>(report.bytes_read) / static_cast<double>(vertices);
     point.layers = report.layers;
     point.vertices = report.vertices;
     point.faces = report.faces;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <random>
 
 #include "parallel/progress.h"
 #include "parallel/runner.h"
@@ -18,11 +19,10 @@ namespace {
 
 /// Encodes `scan`, which may fail only with kInput, and then leaves nothing; what was encoded must
 /// verify. Returns the error's message, empty after success.
-std::string EncodeError(const std::string& scan) {
+std::string EncodeError(const std::string& scan, EncodeOptions options = SmallOptions()) {
   TemporaryFolder folder;
   auto runner = parallel::MakeSerialRunner();
   parallel::Progress progress;
-  EncodeOptions options = SmallOptions();
   options.temporary_folder = folder.path();
   auto report = EncodeFile(scan, folder.File("out.folp"), options, *runner, progress);
   if (!report.ok()) {
@@ -42,10 +42,11 @@ std::string EncodeError(const std::string& scan) {
   return "";
 }
 
-std::string EncodeErrorOfBytes(const std::string& bytes) {
+std::string EncodeErrorOfBytes(const std::string& bytes,
+                               const EncodeOptions& options = SmallOptions()) {
   TemporaryFolder folder;
   WriteFile(folder.File("scan.ply"), std::string_view(bytes));
-  return EncodeError(folder.File("scan.ply"));
+  return EncodeError(folder.File("scan.ply"), options);
 }
 
 TestMesh TinyMesh() {
@@ -180,6 +181,27 @@ TEST(BadScan, OfNeedlesVerifies) {
       mesh.faces.push_back({2 * i, 2 * i + 1, 2 * (i + kSide)});
     }
     EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(mesh)), "") << height;
+  }
+}
+
+TEST(BadScan, OfRandomTrianglesVerifiesAtTheFinestLattice) {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> part(0, 1);
+    TestMesh mesh;
+    for (int v = 0; v < 200; ++v) {
+      // Heights that have nothing to do with distances: steep places, vertices above each other.
+      mesh.positions.push_back({part(random), std::floor(part(random) * 4) / 4,
+                                std::exp2(-20 * part(random))});
+    }
+    auto vertex = [&] { return static_cast<uint32_t>(random() % 200); };
+    for (uint64_t f = 0; f < 50 + seed * 10; ++f) mesh.faces.push_back({vertex(), vertex(), vertex()});
+    EncodeOptions options = SmallOptions(seed % 2 == 0 ? 1000 : 60);
+    options.bits = 24;
+    options.codec.children = 2 + static_cast<uint32_t>(seed % 7);
+    options.codec.predict_height = seed % 5 != 0;
+    options.codec.split_first = seed % 3 != 0;
+    EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(mesh), options), "") << seed;
   }
 }
 

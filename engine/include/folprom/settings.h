@@ -36,7 +36,7 @@ struct CodecSettings {
   uint32_t children = 4;             ///< K, children of a split; 2 .. 8
   bool normal_metric = true;         ///< w_n as in the paper; false: Euclidean distance
   double metric_a = 1;               ///< a; 0 .. 1
-  double metric_b = 8;               ///< b; 1 .. 64
+  double metric_b = 4;               ///< b; 1 .. 64
   uint32_t lloyd_iterations = 12;    ///< at most this many; 1 .. 100
   double lloyd_threshold = 0.01;     ///< stop when distortion falls by less than this part; 0 .. 1
   Representative representative = Representative::kCurvature;
@@ -55,8 +55,8 @@ struct CodecSettings {
   bool nearer_child = true;  ///< side flags relative to the nearer child
 
   // Layers
-  uint32_t layers_per_octave = 2;  ///< layers per halving of the spacing; 1 .. 8
-  uint32_t rounds_per_layer = 2;   ///< largest spacing first, in this many steps a layer; 1 .. 16
+  uint32_t layers_per_octave = 4;  ///< layers per halving of the spacing; 1 .. 8
+  uint32_t rounds_per_layer = 1;   ///< largest spacing first, in this many steps a layer; 1 .. 16
 };
 
 /// kUsage with the name of the first field out of its range.

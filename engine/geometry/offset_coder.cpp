@@ -18,6 +18,10 @@ uint32_t SizeBucket(uint64_t value) {
   return width < kSizeBuckets ? width : kSizeBuckets - 1;
 }
 
+/// Child i of m as one number, for all m up to `children`.
+uint32_t Place(uint32_t count, uint32_t child) { return count * (count - 1) / 2 + child; }
+uint32_t Places(uint32_t children) { return Place(children + 1, 0); }
+
 /// Height range over distance range: 0 flat .. 5 steep.
 uint32_t SteepnessBucket(const Neighbourhood& at) {
   double ratio = at.range_rho > 0 ? at.range_z / at.range_rho : 1;
@@ -58,10 +62,10 @@ OffsetCoder::OffsetCoder(const OffsetSettings& settings)
       is_leaf_({kSpacingBuckets, 4 * 4 * 16}),
       is_full_({kSpacingBuckets, 4 * 4}),
       fewer_({kMostChildren}),
-      first_theta_({kMostChildren + 1, 8}),
-      theta_({(kMostChildren + 1) * kMostChildren, kSizeBuckets * kMostChildren}),
-      rho_({(kMostChildren + 1) * kMostChildren * kReachBuckets, kSizeBuckets * 6}),
-      z_({7 * 5 * 2 * kMostChildren, kSizeBuckets * 6}),
+      first_theta_({settings.children + 1, settings.children}),
+      theta_({Places(settings.children), kSizeBuckets * settings.children}),
+      rho_({Places(settings.children) * kReachBuckets, kSizeBuckets * 6}),
+      z_({7 * 5 * 2 * settings.children, kSizeBuckets * 6}),
       half_({3 * 16}) {}
 
 OffsetSteps OffsetCoder::StepsFor(const Neighbourhood& at, double least) const {
@@ -127,9 +131,9 @@ void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const Offse
   int32_t base = settings_.predict_height ? 0 : RoundToInt(at.min_z / steps.z);
   for (uint32_t i = 0; i < count; ++i) {
     OffsetIndex& index = (*offsets)[i];
-    uint32_t place = count * kMostChildren + i;
+    uint32_t place = Place(count, i);
     if (i == 0 || !settings_.predict_theta) {
-      index.theta = first_theta_.CodeUnsigned(coder, {count, std::min(i, 7u)}, index.theta);
+      index.theta = first_theta_.CodeUnsigned(coder, {count, i}, index.theta);
     } else {
       // The angles still to come are spread evenly over what is left of the turn.
       int32_t before = static_cast<int32_t>((*offsets)[i - 1].theta);
@@ -137,7 +141,7 @@ void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const Offse
       int32_t predicted = std::min(before + left / static_cast<int32_t>(count - i + 1),
                                    static_cast<int32_t>(levels) - 1);
       int32_t residual = theta_.CodeSigned(
-          coder, {place, SizeBucket(rho_before) * kMostChildren + i},
+          coder, {place, SizeBucket(rho_before) * settings_.children + i},
           static_cast<int32_t>(index.theta) - predicted);
       index.theta = static_cast<uint32_t>(std::clamp<int64_t>(
           int64_t{predicted} + residual, 0, static_cast<int64_t>(levels) - 1));
@@ -155,7 +159,7 @@ void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const Offse
     int32_t bent = settings_.predict_height ? RoundToInt(outlook.bend * rho * rho / steps.z) : base;
     uint32_t bend = std::min(SizeBucket(static_cast<uint64_t>(bent < 0 ? -int64_t{bent} : bent)), 4u);
     int32_t height = z_.CodeSigned(
-        coder, {((hollow * 5 + bend) * 2 + (i > 0 ? 1 : 0)) * kMostChildren + i,
+        coder, {((hollow * 5 + bend) * 2 + (i > 0 ? 1 : 0)) * settings_.children + i,
                 SizeBucket(z_before) * 6 + steep},
         RoundToInt(static_cast<double>(index.z) - bent));
     index.z = RoundToInt(static_cast<double>(height) + bent);

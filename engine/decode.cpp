@@ -65,7 +65,7 @@ DecodeSelection SelectionFor(const FolpFile& file, const DecodeOptions& options)
       lo[i] = (options.region_lo[i] - table.origin[i]) / table.unit;
       hi[i] = (options.region_hi[i] - table.origin[i]) / table.unit;
     }
-    selection.wanted = SubtreesInBox(table, lo, hi);
+    selection.wanted = SubtreesInBox(table, selection.layers, lo, hi);
   } else {
     selection.wanted.resize(table.subtrees.size());
     std::iota(selection.wanted.begin(), selection.wanted.end(), 0u);

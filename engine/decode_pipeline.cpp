@@ -143,16 +143,16 @@ class Pipeline {
 
 }  // namespace
 
-std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, const double* lo,
+std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, const double* lo,
                                     const double* hi) {
+  // A representative lies no further than the error bound from each vertex that it stands for.
+  double slack = static_cast<double>(table.layers[layers - 1].error_bound) / table.unit + 1;
   std::vector<uint32_t> found;
   for (uint32_t s = 0; s < table.subtrees.size(); ++s) {
     bool meets = true;
     for (size_t i = 0; i < 3; ++i) {
-      // A representative may lie one tolerance beside its box.
-      constexpr double kSlack = 64;
-      meets &= static_cast<double>(table.subtrees[s].box_lo[i]) - kSlack <= hi[i] &&
-               static_cast<double>(table.subtrees[s].box_hi[i]) + kSlack >= lo[i];
+      meets &= static_cast<double>(table.subtrees[s].box_lo[i]) - slack <= hi[i] &&
+               static_cast<double>(table.subtrees[s].box_hi[i]) + slack >= lo[i];
     }
     if (meets) found.push_back(s);
   }

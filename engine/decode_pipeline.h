@@ -32,8 +32,10 @@ struct DecodeSelection {
   std::vector<uint32_t> wanted;  ///< subtrees to hand on, ascending; seams between them come too
 };
 
-/// Every subtree whose box meets [lo, hi] (lattice coordinates as doubles).
-std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, const double* lo, const double* hi);
+/// Every subtree that may have a representative in [lo, hi] (lattice coordinates as doubles) in the
+/// LOD of `layers` layers.
+std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, const double* lo,
+                                    const double* hi);
 /// Subtrees that must be decoded for the seams of the wanted ones: these and their lower neighbours.
 std::vector<uint32_t> NeededSubtrees(const io::FileTable& table,
                                      const std::vector<uint32_t>& wanted);

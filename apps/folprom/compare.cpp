@@ -60,14 +60,15 @@ void PrintReport(const CompareFlags& flags, const Comparison& comparison, double
                {"seconds", seconds},
                {"peak_rss_bytes", PeakResidentBytes()}});
   } else if (!flags.common.quiet) {
-    Print(fmt::format("A: {}\nB: {}\n"
-                      "        {:<26}{:<26}{}\n{}{}"
-                      "in model units, in brackets as part of A's diagonal {:.6g}; {} samples each "
-                      "way; {:.1f} s\n",
-                      flags.a, flags.b, "mean", "root mean square", "largest",
-                      DirectionText("A to B", comparison.forward, comparison.diagonal),
-                      DirectionText("B to A", comparison.backward, comparison.diagonal),
-                      comparison.diagonal, Grouped(comparison.samples), seconds));
+    Print(
+        fmt::format("A: {}\nB: {}\n"
+                    "        {:<26}{:<26}{}\n{}{}"
+                    "in model units, in brackets as part of A's diagonal {:.6g}; {} samples each "
+                    "way; {:.1f} s\n",
+                    flags.a, flags.b, "mean", "root mean square", "largest",
+                    DirectionText("A to B", comparison.forward, comparison.diagonal),
+                    DirectionText("B to A", comparison.backward, comparison.diagonal),
+                    comparison.diagonal, Grouped(comparison.samples), seconds));
   }
 }
 

@@ -3,11 +3,11 @@
 namespace folprom::cli {
 namespace {
 
-constexpr PublishedPoint kDragonPaper[] = {{1, 4.2}, {2, 2.2}, {4, 1.5},
+constexpr PublishedPoint kDragonPaper[] = {{1, 4.2}, {2, 2.2},  {4, 1.5},
                                            {8, 0.9}, {12, 0.7}, {16, 0.6}};
 constexpr PublishedPoint kHorsePaper[] = {{1, 16.0}, {2, 10.3}, {4, 5.3},
                                           {8, 3.4},  {12, 2.0}, {16, 1.3}};
-constexpr PublishedPoint kIgeaPaper[] = {{1, 4.6}, {2, 2.9}, {4, 2.1},
+constexpr PublishedPoint kIgeaPaper[] = {{1, 4.6}, {2, 2.9},  {4, 2.1},
                                          {8, 1.4}, {12, 1.2}, {16, 0.7}};
 
 constexpr PublishedPoint kDragonSimplify[] = {{0.25, 4.1}, {0.5, 2.6}, {1, 1.33}, {2, 0.77},

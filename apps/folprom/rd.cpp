@@ -197,10 +197,10 @@ std::string CurveTable(const RdFlags& flags, const RateCurve& curve) {
     const auto column = [&](double distance) {
       return 1e4 * Relative(distance, point.comparison).value_or(0);
     };
-    table += fmt::format("{:>9g} {:>8.3f} {:>11} {:>11} {:>9.3f} {:>9.3f} {:>9.2f}",
-                         point.requested, point.bits_per_vertex, Grouped(point.vertices),
-                         Grouped(point.faces), column(larger.mean), column(larger.rms),
-                         column(larger.max));
+    table +=
+        fmt::format("{:>9g} {:>8.3f} {:>11} {:>11} {:>9.3f} {:>9.3f} {:>9.2f}", point.requested,
+                    point.bits_per_vertex, Grouped(point.vertices), Grouped(point.faces),
+                    column(larger.mean), column(larger.rms), column(larger.max));
     if (known) {
       table += fmt::format(" {:>9} {:>17}", published(ErrorAt(known->paper, point.requested)),
                            published(ErrorAt(known->simplify, point.requested)));
@@ -220,12 +220,13 @@ int Run(const RdFlags& flags) {
   const EncodeConfig config = Settings(flags);
   const std::vector<double> rates = ParseRates(flags.rates);
   if (!flags.output.empty()) {
-    for (const char* suffix : kSuffixes) CheckOutput(flags.scan, flags.output + suffix, flags.force);
+    for (const char* suffix : kSuffixes)
+      CheckOutput(flags.scan, flags.output + suffix, flags.force);
   }
   const auto runner = MakeRunner(flags.work, config.threads);
   Session session(flags.common);
-  const RateCurve curve = MeasureRates(flags.scan, config.options, rates,
-                                       flags.samples.value_or(0), *runner, session.progress())
+  const RateCurve curve = MeasureRates(flags.scan, config.options, rates, flags.samples.value_or(0),
+                                       *runner, session.progress())
                               .value();
   session.StopDisplay();
   LogWarnings(curve.warnings);

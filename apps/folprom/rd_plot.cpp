@@ -26,10 +26,17 @@ std::string Escaped(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      default: escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      default:
+        escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }
   return escaped;
@@ -144,7 +151,7 @@ class Drawing {
         "original]</text>\n",
         (kLeft + kRight) / 2, kBottom + 46);
     Add("<text transform=\"translate(26 {}) rotate(-90)\" text-anchor=\"middle\">mean surface "
-        "distance [10<tspan dy=\"-5\" font-size=\"10\">−4</tspan><tspan dy=\"5\">&#160;of the "
+        "distance [10<tspan dy=\"-5\" font-size=\"10\">−4</tspan><tspan dx=\"4\" dy=\"5\">of the "
         "diagonal]</tspan></text>\n",
         (kTop + kBottom) / 2);
   }
@@ -188,17 +195,20 @@ class Drawing {
   void DrawLegend() {
     constexpr double kLine = 24, kBoxWidth = 210;
     const double left = kRight - kBoxWidth - 12;
-    const double height = kLine * static_cast<double>(plot_.series.size()) + 12;
+    const auto drawn = std::count_if(plot_.series.begin(), plot_.series.end(),
+                                     [](const PlotSeries& s) { return !s.points.empty(); });
+    const double height = kLine * static_cast<double>(drawn) + 12;
     Add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"5\" fill=\"#ffffff\" "
         "fill-opacity=\"0.92\" stroke=\"#d1d5db\"/>\n",
         left, kTop + 10, kBoxWidth, height);
     double y = kTop + 16 + kLine / 2;
-    for (size_t i = 0; i < plot_.series.size(); ++i, y += kLine) {
+    for (size_t i = 0; i < plot_.series.size(); ++i) {
+      if (plot_.series[i].points.empty()) continue;
       DrawLine(fmt::format("M{} {}H{}", left + 14, y, left + 58),
                kStyles[std::min(i, std::size(kStyles) - 1)]);
       DrawMark(left + 36, y, i);
-      Add("<text x=\"{}\" y=\"{}\">{}</text>\n", left + 70, y + 4.5,
-          Escaped(plot_.series[i].name));
+      Add("<text x=\"{}\" y=\"{}\">{}</text>\n", left + 70, y + 4.5, Escaped(plot_.series[i].name));
+      y += kLine;
     }
   }
 

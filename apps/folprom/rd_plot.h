@@ -19,7 +19,8 @@ struct PlotSeries {
 struct RatePlot {
   std::string title;
   std::string subtitle;
-  std::vector<PlotSeries> series;  ///< at most three; the first one is drawn boldest
+  /// At most three, each with a style of its own, the first one boldest; empty ones are not shown.
+  std::vector<PlotSeries> series;
 };
 
 /// An SVG with both axes logarithmic. Points without rate or error have no place and are left out.

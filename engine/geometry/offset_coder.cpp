@@ -156,7 +156,11 @@ void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const Offse
     rho_before = index.rho;
     // On a surface bent as the neighbours say the height grows with the square of the distance.
     double rho = (index.rho + 0.5) * steps.rho;
-    int32_t bent = settings_.predict_height ? RoundToInt(outlook.bend * rho * rho / steps.z) : base;
+    // It is kept to the heights seen: beside a neighbour on the axis the bend has no bound.
+    double highest = at.range_z / steps.z;
+    int32_t bent = settings_.predict_height
+                       ? RoundToInt(std::clamp(outlook.bend * rho * rho / steps.z, -highest, highest))
+                       : base;
     uint32_t bend = std::min(SizeBucket(static_cast<uint64_t>(bent < 0 ? -int64_t{bent} : bent)), 4u);
     int32_t height = z_.CodeSigned(
         coder, {((hollow * 5 + bend) * 2 + (i > 0 ? 1 : 0)) * settings_.children + i,

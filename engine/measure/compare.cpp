@@ -27,7 +27,7 @@ Original::Original(TriangleMesh mesh, const std::string& path, parallel::Runner&
       progress_(progress),
       frame_(mesh, path),
       mesh_(frame_.Inside(std::move(mesh), path)),
-      nearest_(mesh_, runner.threads(), progress) {}
+      nearest_(mesh_, runner, progress) {}
 
 Comparison Original::Against(TriangleMesh other, const std::string& path, uint64_t samples) {
   if (sample_count_ != samples) {
@@ -35,7 +35,7 @@ Comparison Original::Against(TriangleMesh other, const std::string& path, uint64
     sample_count_ = samples;
   }
   const TriangleMesh mesh = frame_.Inside(std::move(other), path);
-  const NearestSurface nearest(mesh, runner_.threads(), progress_);
+  const NearestSurface nearest(mesh, runner_, progress_);
   const SurfaceSamples other_samples(mesh, samples);
   Comparison comparison;
   comparison.samples = samples;
@@ -56,8 +56,7 @@ Result<Comparison> CompareFiles(const std::string& a, const std::string& b,
     measure::TriangleMesh first = measure::ReadMesh(a, options.temporary_folder, runner, progress);
     measure::TriangleMesh second = measure::ReadMesh(b, options.temporary_folder, runner, progress);
     const uint64_t faces = std::max(first.faces.size(), second.faces.size());
-    const uint64_t samples =
-        options.samples > 0 ? options.samples : measure::DefaultSamples(faces);
+    const uint64_t samples = options.samples > 0 ? options.samples : measure::DefaultSamples(faces);
     progress.StartStage("build", 0);
     measure::Original original(std::move(first), a, runner, progress);
     return original.Against(std::move(second), b, samples);

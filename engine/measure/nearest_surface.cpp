@@ -29,11 +29,9 @@ struct Search {
   double squared;
   uint32_t element;
 
-  // Never too small: covers the rounding of the point and of Embree's own arithmetic, a few units in
-  // the last place of a float, and keeps the square above what float flushes to zero.
-  float Radius() const {
-    return RoundedUp((std::sqrt(squared) + rounding) * (1 + 1e-6) + 1e-12);
-  }
+  // Never too small: covers the rounding of the point and of Embree's own arithmetic, a few units
+  // in the last place of a float, and keeps the square above what float flushes to zero.
+  float Radius() const { return RoundedUp((std::sqrt(squared) + rounding) * (1 + 1e-6) + 1e-12); }
 };
 
 }  // namespace
@@ -90,15 +88,14 @@ struct NearestSurface::Callbacks {
   }
 };
 
-NearestSurface::NearestSurface(const TriangleMesh& mesh, int threads,
+NearestSurface::NearestSurface(const TriangleMesh& mesh, parallel::Runner& runner,
                                const parallel::Progress& progress)
-    : mesh_(mesh),
-      device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
+    : mesh_(mesh), device_(rtcNewDevice(nullptr)) {
   if (!device_) throw Failure(ErrorKind::kInternal, "Embree does not start");
   scene_.reset(rtcNewScene(device_.get()));
   auto* watched = const_cast<parallel::Progress*>(&progress);  // Embree hands on a void*.
   rtcSetSceneProgressMonitorFunction(scene_.get(), &Callbacks::GoOn, watched);
-  Build();
+  Build(runner);
   progress.ThrowIfCancelled();
   const RTCError error = rtcGetDeviceError(device_.get());
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -109,7 +106,7 @@ NearestSurface::NearestSurface(const TriangleMesh& mesh, int threads,
 
 NearestSurface::~NearestSurface() = default;
 
-void NearestSurface::Build() {
+void NearestSurface::Build(parallel::Runner& runner) {
   // Not triangles of Embree's own: it would round their corners, and leave some out.
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(element_count()));
@@ -118,7 +115,9 @@ void NearestSurface::Build() {
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_.get(), geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene_.get());
+  // Embree works with oneTBB, in the arena of its caller: inside a task, that of the runner. A
+  // number of threads given to Embree itself would bind the whole process.
+  runner.ForEach(1, [&](size_t) { rtcCommitScene(scene_.get()); });
 }
 
 size_t NearestSurface::element_count() const {
@@ -146,8 +145,8 @@ NearestSurface::Nearest NearestSurface::From(const Vector3& point, uint32_t gues
   query.z = static_cast<float>(point[2]);
   query.time = 0;
   const Vector3 rounded = {query.x, query.y, query.z};
-  Search search = {this, point, Length(Difference(point, rounded)),
-                   SquaredDistanceOf(guess, point), guess};
+  Search search = {this, point, Length(Difference(point, rounded)), SquaredDistanceOf(guess, point),
+                   guess};
   query.radius = search.Radius();
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);

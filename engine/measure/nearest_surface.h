@@ -16,9 +16,9 @@ namespace folprom::measure {
 /// construction. Keeps a reference to the mesh, which lies in a UnitFrame.
 class NearestSurface {
  public:
-  /// Builds the search tree with so many threads. Throws Failure kLimit where memory is short,
-  /// Cancelled.
-  NearestSurface(const TriangleMesh& mesh, int threads, const parallel::Progress& progress);
+  /// Builds the search tree on the threads of the runner. Throws std::bad_alloc, Cancelled.
+  NearestSurface(const TriangleMesh& mesh, parallel::Runner& runner,
+                 const parallel::Progress& progress);
   ~NearestSurface();
   NearestSurface(const NearestSurface&) = delete;
   NearestSurface& operator=(const NearestSurface&) = delete;
@@ -43,7 +43,7 @@ class NearestSurface {
   };
   size_t element_count() const;
   double SquaredDistanceOf(uint32_t element, const Vector3& point) const;
-  void Build();
+  void Build(parallel::Runner& runner);
   struct Callbacks;
 
   const TriangleMesh& mesh_;

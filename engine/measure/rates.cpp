@@ -23,8 +23,7 @@ class RateJob {
         encoded_(folder_.File("scan.folp")) {}
 
   RateCurve Run(std::span<const double> rates) {
-    const EncodeReport report =
-        EncodeFile(scan_, encoded_, options_, runner_, progress_).value();
+    const EncodeReport report = EncodeFile(scan_, encoded_, options_, runner_, progress_).value();
     RateCurve curve{report.vertices, report.faces, report.bytes, {}, report.warnings};
     const FileInfo info = ReadInfo(encoded_).value();
     measure::Original original(
@@ -35,9 +34,8 @@ class RateJob {
       point.bytes = info.layers[point.layers - 1].end_byte;
       point.bits_per_vertex = info.layers[point.layers - 1].bits_per_vertex;
       // Rates between the same two layers give the same mesh.
-      const auto same = std::find_if(curve.points.begin(), curve.points.end(), [&](const auto& p) {
-        return p.layers == point.layers;
-      });
+      const auto same = std::find_if(curve.points.begin(), curve.points.end(),
+                                     [&](const auto& p) { return p.layers == point.layers; });
       point.comparison = same != curve.points.end() ? same->comparison : Compared(&original);
       curve.points.push_back(point);
     }

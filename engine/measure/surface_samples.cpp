@@ -81,8 +81,8 @@ void SurfaceSamples::CollectEdges() {
   // As dense along an edge as on the area, as METRO has it; never more than on the area in all.
   samples_per_length_ = static_cast<double>(count_) / length;
   if (has_area()) {
-    samples_per_length_ = std::min(
-        samples_per_length_, std::sqrt(static_cast<double>(count_) / area_before_.back()));
+    samples_per_length_ =
+        std::min(samples_per_length_, std::sqrt(static_cast<double>(count_) / area_before_.back()));
   }
 }
 

@@ -30,14 +30,12 @@ bool IsFolp(const std::string& path) {
 
 void CheckCount(const std::string& path, uint64_t count, const char* what) {
   if (count <= kMaxCount) return;
-  throw Failure(ErrorKind::kLimit, path + ": " + std::to_string(count) + " " + what +
-                                       "; at most " + std::to_string(kMaxCount) +
-                                       " can be compared");
+  throw Failure(ErrorKind::kLimit, path + ": " + std::to_string(count) + " " + what + "; at most " +
+                                       std::to_string(kMaxCount) + " can be compared");
 }
 
-void ReadPositions(const io::MeshSource& source, const std::string& path,
-                   parallel::Runner& runner, parallel::Progress& progress,
-                   std::vector<Vector3>* positions) {
+void ReadPositions(const io::MeshSource& source, const std::string& path, parallel::Runner& runner,
+                   parallel::Progress& progress, std::vector<Vector3>* positions) {
   positions->resize(source.vertex_count());
   runner.ForEach(source.vertex_block_count(), [&](size_t block) {
     std::vector<double> xyz;
@@ -56,8 +54,8 @@ void ReadPositions(const io::MeshSource& source, const std::string& path,
   });
 }
 
-void ReadFaces(const io::MeshSource& source, parallel::Runner& runner,
-               parallel::Progress& progress, std::vector<std::array<uint32_t, 3>>* faces) {
+void ReadFaces(const io::MeshSource& source, parallel::Runner& runner, parallel::Progress& progress,
+               std::vector<std::array<uint32_t, 3>>* faces) {
   faces->reserve(source.triangle_count());
   const size_t blocks = source.triangle_block_count();
   std::vector<std::vector<io::Triangle>> read(blocks);
@@ -74,8 +72,8 @@ void ReadFaces(const io::MeshSource& source, parallel::Runner& runner,
       });
 }
 
-TriangleMesh ReadSource(const std::string& file, const std::string& path,
-                        parallel::Runner& runner, parallel::Progress& progress) {
+TriangleMesh ReadSource(const std::string& file, const std::string& path, parallel::Runner& runner,
+                        parallel::Progress& progress) {
   const auto source = std::move(io::MeshSource::Open(file).value());
   CheckCount(path, source->vertex_count(), "vertices");
   CheckCount(path, source->triangle_count(), "faces");

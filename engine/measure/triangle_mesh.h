@@ -17,7 +17,8 @@ struct TriangleMesh {
   std::vector<std::array<uint32_t, 3>> faces;
 };
 
-/// Reads a mesh file; a .folp file, known by its first bytes, is decoded. Throws Failure, Cancelled.
+/// Reads a mesh file; a .folp file, known by its first bytes, is decoded. Throws Failure,
+/// Cancelled.
 TriangleMesh ReadMesh(const std::string& path, const std::string& temporary_folder,
                       parallel::Runner& runner, parallel::Progress& progress);
 

@@ -12,7 +12,7 @@ namespace {
 class Usage : public CliTest {};
 
 TEST_F(Usage, HelpShowsExamplesBeforeOptions) {
-  for (const char* verb : {"encode", "decode", "info", "verify", "synth"}) {
+  for (const char* verb : {"encode", "decode", "info", "verify", "compare", "rd", "synth"}) {
     const Outcome outcome = Run({verb, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     const size_t example = outcome.out.find(std::string("  folprom ") + verb + " ");

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "folprom/decoder.h"
 #include "tests/decode_library/program_files.h"
@@ -20,11 +22,13 @@ class DecodeLibrary : public ::testing::Test {
 };
 ProgramFiles* DecodeLibrary::files_ = nullptr;
 
-/// A mesh as it stands in a PLY file of floats.
-void RoundToFloat(DecodedMesh* mesh) {
-  for (auto& position : mesh->positions) {
-    for (double& value : position) value = static_cast<double>(static_cast<float>(value));
+/// Positions as they stand in a PLY file of floats.
+std::vector<std::array<float, 3>> AsFloats(const DecodedMesh& mesh) {
+  std::vector<std::array<float, 3>> rounded;
+  for (const auto& p : mesh.positions) {
+    rounded.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
   }
+  return rounded;
 }
 
 size_t ThreadsOfThisProcess() {
@@ -46,10 +50,9 @@ TEST_F(DecodeLibrary, GivesTheLodsOfTheProgramLayerByLayer) {
   double bound = 1e300;
   while (decoder->decoded_layers() < decoder->layer_count()) {
     ASSERT_TRUE(decoder->DecodeNextLayer().ok());
-    DecodedMesh mesh = decoder->Mesh();
-    RoundToFloat(&mesh);
+    const DecodedMesh mesh = decoder->Mesh();
     const DecodedMesh expected = files_->DecodedByProgram(decoder->decoded_layers());
-    ASSERT_EQ(mesh.positions, expected.positions) << decoder->decoded_layers();
+    ASSERT_EQ(AsFloats(mesh), AsFloats(expected)) << decoder->decoded_layers();
     ASSERT_EQ(mesh.faces, expected.faces) << decoder->decoded_layers();
     EXPECT_GE(mesh.positions.size(), vertices);
     vertices = mesh.positions.size();
@@ -83,9 +86,8 @@ TEST_F(DecodeLibrary, DecodesThePrefixThatHasArrived) {
   while (decoder->decoded_layers() < decoder->complete_layers()) {
     ASSERT_TRUE(decoder->DecodeNextLayer().ok());
   }
-  DecodedMesh mesh = decoder->Mesh();
-  RoundToFloat(&mesh);
-  EXPECT_EQ(mesh.positions, files_->DecodedByProgram(decoder->decoded_layers()).positions);
+  EXPECT_EQ(AsFloats(decoder->Mesh()),
+            AsFloats(files_->DecodedByProgram(decoder->decoded_layers())));
   const Result<void> more = decoder->DecodeNextLayer();
   ASSERT_FALSE(more.ok());
   EXPECT_EQ(more.error().kind, ErrorKind::kCorrupt);

@@ -205,6 +205,48 @@ TEST(BadScan, OfRandomTrianglesVerifiesAtTheFinestLattice) {
   }
 }
 
+/// Two parallel sheets, close together, of opposite orientation, joined along one side.
+TestMesh ThinPlate(uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> part(-1, 1);
+  const double slope_x = part(random), slope_y = part(random);
+  const double thickness = std::exp2(-2 - 18 * std::fabs(part(random)));
+  const double noise = thickness * std::fabs(part(random)), jitter = 0.3 * std::fabs(part(random));
+  const uint32_t side = 8 + static_cast<uint32_t>(random() % 8);
+  TestMesh mesh;
+  for (int layer = 0; layer < 2; ++layer) {
+    for (uint32_t i = 0; i < side * side; ++i) {
+      const double x = i % side + jitter * part(random), y = i / side + jitter * part(random);
+      mesh.positions.push_back(
+          {x, y, slope_x * x + slope_y * y + layer * thickness + noise * part(random)});
+    }
+  }
+  for (uint32_t y = 0; y + 1 < side; ++y) {
+    for (uint32_t x = 0; x + 1 < side; ++x) {
+      const uint32_t low = y * side + x, high = side * side + low;
+      mesh.faces.push_back({high, high + 1, high + side});
+      mesh.faces.push_back({high + 1, high + side + 1, high + side});
+      mesh.faces.push_back({low + 1, low, low + side});
+      mesh.faces.push_back({low + side + 1, low + 1, low + side});
+    }
+  }
+  for (uint32_t x = 0; x + 1 < side; ++x) mesh.faces.push_back({x, x + 1, x + side * side});
+  return mesh;
+}
+
+TEST(BadScan, OfThinPlatesVerifies) {
+  // Sets whose neighbours lie nearer to the axis than their children by a factor of thousands.
+  for (uint64_t seed : {2, 17, 400, 1474}) {
+    for (uint32_t levels : {16u, 256u, 4096u}) {
+      EncodeOptions options = SmallOptions(1000);
+      options.bits = 24;
+      options.codec.children = 6;
+      options.codec.quantisation_levels = levels;
+      EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(ThinPlate(seed)), options), "") << seed << " " << levels;
+    }
+  }
+}
+
 TEST(BadScan, WithExponentiallySpacedVerticesVerifies) {
   TestMesh mesh;
   for (int i = 0; i < 600; ++i) {

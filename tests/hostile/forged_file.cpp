@@ -51,7 +51,8 @@ Bytes Forged(const std::vector<Int3>& positions, const std::vector<Face>& faces,
   SubtreeChunk chunk{positions, faces, cross_faces, {}};
   CodecParameters parameters;
   parameters.extent = {kSide, kSide, kSide};
-  parameters.schedule = LayerSchedule(parameters.extent, 2, 2, 3, 2);
+  parameters.schedule = LayerSchedule(parameters.extent, parameters.settings.layers_per_octave,
+                                      parameters.settings.rounds_per_layer, 3, 2);
   SetTree tree = BuildLloydTree(positions, MeasureSurface(positions, faces, cross_faces, 0), kSide,
                                 parameters.settings);
   LloydTruth honest(chunk, 0, tree);

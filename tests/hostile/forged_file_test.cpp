@@ -22,7 +22,7 @@ TEST(ForgedFile, OfHonestContentDecodes) {
 }
 
 TEST(ForgedFile, WithMoreFaceCopiesThanAnnouncedFacesIsCorrupt) {
-  const Bytes file = CopiedFacesFile(1000000);
+  const Bytes file = CopiedFacesFile(100000);
   const std::string faults = RunGuarded(1, 20, kAllowedBytes + 64 * file.size(), [&](size_t) {
     ErrorKind error;
     DecodeLods(file, &error);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <ostream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,14 +21,13 @@ struct Case {
   std::string name;
   CodecSettings settings;
 };
+void PrintTo(const Case& given, std::ostream* out) { *out << given.name; }
 
 std::string NameOf(std::string_view key, double value) {
   std::string text = std::string(key) + "_" + std::to_string(value);
-  for (char& c : text) {
-    if (c == '.') c = '_';
-  }
-  while (text.ends_with('0') && text.find("_") != text.size() - 2) text.pop_back();
-  if (text.ends_with('_')) text.pop_back();
+  while (text.ends_with('0')) text.pop_back();
+  if (text.ends_with('.')) text.pop_back();
+  std::replace(text.begin(), text.end(), '.', '_');
   return text;
 }
 

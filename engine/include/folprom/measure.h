@@ -32,13 +32,13 @@ struct Comparison {
 };
 
 struct CompareOptions {
-  uint64_t samples = 0;  ///< 0: ten per face of the finer mesh, 500,000 .. 10,000,000
+  uint64_t samples = 0;          ///< 0: ten per face of the finer mesh, 500,000 .. 10,000,000
   std::string temporary_folder;  ///< for the decoded .folp files; empty: $TMPDIR or /tmp
 };
 
 /// Compares two mesh or .folp files. The surface is the faces; of a mesh without faces, the
-/// vertices. Same result for every runner. Errors: kInput (also a mesh without vertices, or with one
-/// that is not finite), kCorrupt, kLimit (2^32 - 1 vertices or faces), kInterrupted.
+/// vertices. Same result for every runner. Errors: kInput (also a mesh without vertices, or with
+/// one that is not finite), kCorrupt, kLimit (2^32 - 1 vertices or faces), kInterrupted.
 Result<Comparison> CompareFiles(const std::string& a, const std::string& b,
                                 const CompareOptions& options, parallel::Runner& runner,
                                 parallel::Progress& progress);

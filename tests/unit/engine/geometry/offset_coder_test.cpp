@@ -98,7 +98,8 @@ std::vector<Split> RandomSplits(const OffsetSettings& settings, uint64_t seed) {
     split.at = RandomNeighbourhood(random, 1e5);
     split.count = 1 + static_cast<uint32_t>(random() % settings.children);
     for (uint32_t c = 0; c < split.count; ++c) {
-      const uint32_t size = static_cast<uint32_t>(random() % 29);
+      // Up to what a child may be away: 2^30 lattice units in steps of 30.5 and more.
+      const uint32_t size = static_cast<uint32_t>(random() % 18);
       split.offsets.push_back({static_cast<uint32_t>(random() % settings.levels),
                                static_cast<uint32_t>(random() & ((1u << size) - 1)),
                                static_cast<int32_t>(random() & ((1u << size) - 1)) *

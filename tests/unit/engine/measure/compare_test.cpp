@@ -36,7 +36,7 @@ class CompareFile : public testing::Test {
   Result<Comparison> Run(const std::string& a, const std::string& b) {
     const auto runner = parallel::MakeTbbRunner(2);
     CompareOptions options;
-    options.samples = 20'000;
+    options.samples = 2000;
     options.temporary_folder = folder_.path();
     return CompareFiles(a, b, options, *runner, progress_);
   }
@@ -56,16 +56,15 @@ class CompareFile : public testing::Test {
 };
 
 TEST(Compare, GivesTheSameForEveryRunner) {
-  const TriangleMesh a = Sphere(1, 60), b = Moved(RandomTriangles(3000, 1), {-0.5, -0.5, -0.5});
-  const Comparison serial = Compare(a, b, 60'000);
-  std::vector<std::unique_ptr<parallel::Runner>> runners;
-  for (const int threads : {1, 2, 3, 8}) runners.push_back(parallel::MakeTbbRunner(threads));
-  for (const uint64_t seed : {1u, 2u}) runners.push_back(parallel::MakeShuffledRunner(seed));
-  for (const auto& runner : runners) {
-    const Comparison other = Compare(a, b, 60'000, runner.get());
+  const TriangleMesh a = Sphere(1, 60), b = Moved(RandomTriangles(1000, 1), {-0.5, -0.5, -0.5});
+  const Comparison serial = Compare(a, b, 20'000);
+  const auto expect_same = [&](std::unique_ptr<parallel::Runner> runner) {
+    const Comparison other = Compare(a, b, 20'000, runner.get());
     ExpectSame(other.forward, serial.forward);
     ExpectSame(other.backward, serial.backward);
-  }
+  };
+  for (const int threads : {1, 2, 3, 8}) expect_same(parallel::MakeTbbRunner(threads));
+  for (const uint64_t seed : {1u, 2u}) expect_same(parallel::MakeShuffledRunner(seed));
 }
 
 TEST(Compare, MoreSamplesAgreeWithFewer) {
@@ -122,7 +121,7 @@ TEST(Compare, VerticesAreTheSurfaceWhereThereIsNoFace) {
   const Comparison c = Compare(points, Plane(0, 0, 3), 5000);
   EXPECT_NEAR(c.forward.mean, 0.25, 1e-12);
   // The point farthest from the nine is the middle of four.
-  EXPECT_NEAR(c.backward.max, std::sqrt(0.25 * 0.25 * 3), 1e-3);
+  EXPECT_NEAR(c.backward.max, std::sqrt(0.25 * 0.25 * 3), 0.01);
 }
 
 TEST(Compare, DefaultSamplesFollowTheFaces) {
@@ -153,9 +152,9 @@ TEST_F(CompareFile, ReadsEverySmallMesh) {
     const support::Mesh mesh = small.make();
     if (mesh.positions.empty()) continue;
     const std::string file = Written(small.name + ".ply", mesh);
-    const auto c = Run(plane, file);
+    auto c = Run(file, plane);
     ASSERT_TRUE(c.ok()) << small.name << ": " << c.error().message;
-    ExpectFinite(*const_cast<Result<Comparison>&>(c));
+    ExpectFinite(*c);
     const auto self = Run(file, file);
     ASSERT_TRUE(self.ok()) << small.name << ": " << self.error().message;
   }

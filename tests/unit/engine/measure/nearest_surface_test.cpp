@@ -30,7 +30,8 @@ double BruteForce(const TriangleMesh& mesh, const Vector3& point) {
 
 void ExpectExact(const TriangleMesh& mesh, double spread, uint64_t seed) {
   const parallel::Progress progress;
-  const NearestSurface surface(mesh, 2, progress);
+  const auto runner = parallel::MakeTbbRunner(2);
+  const NearestSurface surface(mesh, *runner, progress);
   support::Random random(seed);
   const uint64_t elements = mesh.faces.empty() ? mesh.positions.size() : mesh.faces.size();
   for (int i = 0; i < 2000; ++i) {
@@ -67,7 +68,8 @@ TEST(NearestSurface, BuildingCanBeCancelled) {
   parallel::Progress progress;
   progress.Cancel();
   const TriangleMesh mesh = RandomTriangles(10, 12);
-  EXPECT_THROW(NearestSurface(mesh, 1, progress), parallel::Cancelled);
+  const auto runner = parallel::MakeSerialRunner();
+  EXPECT_THROW(NearestSurface(mesh, *runner, progress), parallel::Cancelled);
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ TEST_F(Rates, ErrorFallsAsTheRateRises) {
   for (size_t i = 0; i < 3; ++i) {
     const RatePoint& point = curve.points[i];
     EXPECT_LE(point.bits_per_vertex, point.requested);
-    EXPECT_DOUBLE_EQ(point.bits_per_vertex, static_cast<double>(point.bytes) * 8 / 4000);
+    EXPECT_DOUBLE_EQ(point.bits_per_vertex,
+                     static_cast<double>(point.bytes * 8) / static_cast<double>(curve.vertices));
     if (i == 0) continue;
     EXPECT_GT(point.vertices, curve.points[i - 1].vertices);
     EXPECT_LT(point.comparison.forward.mean, curve.points[i - 1].comparison.forward.mean);

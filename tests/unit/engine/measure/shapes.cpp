@@ -16,8 +16,8 @@ void AddGrid(uint32_t cells, const Position& position, TriangleMesh* mesh) {
   const uint32_t row = cells + 1;
   for (uint32_t v = 0; v < row; ++v) {
     for (uint32_t u = 0; u < row; ++u) {
-      mesh->positions.push_back(position(static_cast<double>(u) / cells,
-                                         static_cast<double>(v) / cells));
+      mesh->positions.push_back(
+          position(static_cast<double>(u) / cells, static_cast<double>(v) / cells));
     }
   }
   for (uint32_t v = 0; v < cells; ++v) {
@@ -33,14 +33,19 @@ void AddGrid(uint32_t cells, const Position& position, TriangleMesh* mesh) {
 
 TriangleMesh Plane(double x, double height, uint32_t cells) {
   TriangleMesh mesh;
-  AddGrid(cells, [&](double u, double v) { return Vector3{x + u, v, height}; }, &mesh);
+  AddGrid(
+      cells,
+      [&](double u, double v) {
+        return Vector3{x + u, v, height};
+      },
+      &mesh);
   return mesh;
 }
 
 TriangleMesh PlaneWithPyramid(double half_width, double height) {
   const double lo = 0.5 - half_width, hi = 0.5 + half_width;
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0},   {1, 0, 0},   {1, 1, 0},   {0, 1, 0},       {lo, lo, 0},
+  mesh.positions = {{0, 0, 0},   {1, 0, 0},   {1, 1, 0},   {0, 1, 0},         {lo, lo, 0},
                     {hi, lo, 0}, {hi, hi, 0}, {lo, hi, 0}, {0.5, 0.5, height}};
   for (uint32_t i = 0; i < 4; ++i) {
     const uint32_t next = (i + 1) % 4;
@@ -73,8 +78,7 @@ TriangleMesh Sphere(double radius, uint32_t rings) {
   const auto position = [&](double u, double v) {
     const double latitude = std::numbers::pi * v, longitude = 2 * std::numbers::pi * u;
     return Vector3{radius * std::sin(latitude) * std::cos(longitude),
-                   radius * std::sin(latitude) * std::sin(longitude),
-                   radius * std::cos(latitude)};
+                   radius * std::sin(latitude) * std::sin(longitude), radius * std::cos(latitude)};
   };
   AddGrid(rings, position, &mesh);
   return mesh;
@@ -100,9 +104,9 @@ TriangleMesh RandomTriangles(size_t count, uint64_t seed) {
       }
     }
     const uint64_t kind = random.Below(10);
-    if (kind == 0) corners[2] = corners[0];                 // a segment
-    if (kind == 1) corners[1] = corners[2] = corners[0];    // a point
-    if (kind == 2) {                                        // a sliver
+    if (kind == 0) corners[2] = corners[0];               // a segment
+    if (kind == 1) corners[1] = corners[2] = corners[0];  // a point
+    if (kind == 2) {                                      // a sliver
       const Vector3 along = Difference(corners[1], corners[0]);
       corners[2] = Combination(corners[0], 0.3, along, 0, along);
     }

@@ -1,0 +1,110 @@
+#include "engine/codec/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace folprom {
+namespace {
+
+constexpr int32_t kWidest = (1 << 30) - 1;
+constexpr Int3 kExtent{100000, 250000, 7};
+
+CodecParameters Some() {
+  CodecParameters parameters;
+  parameters.extent = kExtent;
+  parameters.settings.children = 7;
+  parameters.settings.metric_b = 3.5;
+  parameters.settings.split_first = false;
+  parameters.settings.representative = Representative::kCentre;
+  parameters.settings.layers_per_octave = 3;
+  parameters.schedule = LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4);
+  return parameters;
+}
+
+void ExpectCorrupt(const std::vector<uint8_t>& bytes, const Int3& extent = kExtent) {
+  try {
+    ReadParameters(bytes, extent);
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.error().kind, ErrorKind::kCorrupt) << failure.error().message;
+  }
+}
+
+TEST(CodecParameters, ComeBackFromTheirBytes) {
+  const CodecParameters read = ReadParameters(WriteParameters(Some()), kExtent);
+  EXPECT_EQ(read.settings.children, 7u);
+  EXPECT_EQ(read.settings.metric_b, 3.5);
+  EXPECT_FALSE(read.settings.split_first);
+  EXPECT_EQ(read.settings.representative, Representative::kCentre);
+  EXPECT_EQ(read.extent, kExtent);
+  EXPECT_EQ(read.schedule.split_layers(), 9u);
+  EXPECT_EQ(read.schedule.refine_layers(), 4u);
+  EXPECT_EQ(WriteParameters(read), WriteParameters(Some()));
+}
+
+TEST(CodecParameters, CutOrLengthenedAreCorrupt) {
+  const std::vector<uint8_t> whole = WriteParameters(Some());
+  for (size_t size = 0; size < whole.size(); ++size) {
+    ExpectCorrupt({whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size)});
+  }
+  std::vector<uint8_t> longer = whole;
+  longer.push_back(0);
+  ExpectCorrupt(longer);
+}
+
+TEST(CodecParameters, OutOfRangeAreCorrupt) {
+  CodecParameters nan = Some();
+  nan.settings.metric_a = std::numeric_limits<double>::quiet_NaN();
+  ExpectCorrupt(WriteParameters(nan));
+  CodecParameters children = Some();
+  children.settings.children = 9;
+  ExpectCorrupt(WriteParameters(children));
+  for (auto [split, refine] : {std::pair{0u, 4u}, {9u, 100000u}, {100000u, 4u}, {~0u, 1u}}) {
+    CodecParameters layers = Some();
+    layers.schedule = LayerSchedule(kExtent, 3, 2, split, refine);
+    ExpectCorrupt(WriteParameters(layers));
+  }
+}
+
+TEST(LayerSchedule, FallsFromLayerToLayerToTheLeafBound) {
+  for (const Int3& extent : {Int3{1, 0, 0}, kExtent, Int3{kWidest, kWidest, kWidest}}) {
+    for (double edge : {0.0, 50.0, 1e4}) {
+      for (uint32_t per_octave = 1; per_octave <= 8; ++per_octave) {
+        const LayerSchedule schedule(extent, per_octave, 2, SplitLayersFor(extent, edge, per_octave),
+                                     RefineLayersFor(extent, edge, per_octave));
+        double spacing = 2e9, bound = 2e9;
+        for (uint32_t layer = 0; layer < schedule.layers(); ++layer) {
+          if (layer < schedule.split_layers()) {
+            for (uint32_t round = 0; round < schedule.rounds(layer); ++round) {
+              EXPECT_LT(schedule.SplitSpacing(layer, round), spacing);
+              spacing = schedule.SplitSpacing(layer, round);
+            }
+          } else {
+            EXPECT_LT(schedule.RefineBound(layer), bound);
+            bound = schedule.RefineBound(layer);
+          }
+        }
+        EXPECT_EQ(spacing, 0);
+        EXPECT_NEAR(bound, kLeafBound, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(LayerSchedule, IsNeverLongerThanWhatAFileMayAnnounce) {
+  // The table of a file holds at most 4096 layers.
+  const Int3 widest{kWidest, kWidest, kWidest};
+  EXPECT_LE(SplitLayersFor(widest, 0, 8) + RefineLayersFor(widest, 0, 8), 4096u);
+  for (double edge : {1.0, 64.0, 1e5, 1e9}) {
+    for (uint32_t per_octave : {1u, 2u, 8u}) {
+      EXPECT_LE(SplitLayersFor(widest, edge, per_octave), SplitLayersFor(widest, 0, per_octave));
+      EXPECT_LE(RefineLayersFor(widest, edge, per_octave), RefineLayersFor(widest, 0, per_octave));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace folprom

@@ -116,13 +116,11 @@ class DecodeJob {
   void DecodeAll(DecodeReport* report) {
     const io::LayerRecord& layer = file_.table().layers[selection_.layers - 1];
     auto writer = MakeWriter(layer.vertices, layer.faces);
-    PlySink sink(file_.lattice(), *writer);
+    PlySink sink(file_.lattice(), layer, *writer);
     Decode(sink);
     report->vertices = sink.vertices();
     report->faces = sink.faces();
-    if (sink.vertices() != layer.vertices || sink.faces() != layer.faces) {
-      throw Failure(ErrorKind::kCorrupt, "decoded counts differ from those of the table");
-    }
+    sink.CheckComplete();
     writer->Commit().value();
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 
 #include "engine/codec/border_file.h"
@@ -34,6 +35,15 @@ std::vector<uint32_t> SpillSegments(const io::SpillDirectory& spill, const std::
 std::string InnerName(size_t subtree) { return "inner." + std::to_string(subtree); }
 std::string SeamName(size_t subtree) { return "seam." + std::to_string(subtree); }
 
+/// Sides of the box for which error bounds stay inside a float and steps above its finest.
+constexpr double kSmallestSide = 1e-280, kLargestSide = 1e37;
+
+std::string Text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
 /// Distance from a float or double of this size to the next.
 double StepOf(io::ScalarType type, double size) {
   if (type == io::ScalarType::kFloat32) {
@@ -61,6 +71,11 @@ Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, uint32_t bits
   Resolution result;
   if (bounds.empty()) return result;
   double longest = bounds.longest();
+  if (longest > kLargestSide || (longest > 0 && longest < kSmallestSide)) {
+    throw Failure(ErrorKind::kInput, "the coordinates span " + Text(longest) + "; sides from " +
+                                         Text(kSmallestSide) + " to " + Text(kLargestSide) +
+                                         " can be coded");
+  }
   double steps = static_cast<double>((uint64_t{1} << bits) - 1);
   result.tolerance = tolerance > 0 ? tolerance : longest / steps / 2;
   result.lattice.origin = bounds.lo;
@@ -76,8 +91,8 @@ Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, uint32_t bits
   result.lattice.unit = inner / kUnitsPerTolerance;
   if (!(longest / result.lattice.unit < kLatticeLimit - 2)) {
     throw Failure(ErrorKind::kUsage,
-                  "tolerance " + std::to_string(result.tolerance) +
-                      " is too fine: the longest side of the box may span 2^24 steps of it");
+                  "tolerance " + Text(result.tolerance) + " is too fine for coordinates up to " +
+                      Text(largest) + " that span " + Text(longest));
   }
   for (size_t i = 0; i < 3; ++i) {
     double side = (bounds.hi[i] - bounds.lo[i]) / result.lattice.unit;
@@ -96,8 +111,12 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
 
 void EncodeJob::MeasureScan() {
   Bounds bounds = MeasureBounds(*source_, runner_, progress_);
-  resolution_ =
-      ResolutionOf(bounds, source_->coordinate_type(), options_.bits, options_.tolerance);
+  try {
+    resolution_ =
+        ResolutionOf(bounds, source_->coordinate_type(), options_.bits, options_.tolerance);
+  } catch (const Failure& failure) {
+    throw Failure(failure.error().kind, source_->path() + ": " + failure.error().message);
+  }
 }
 
 void EncodeJob::Partition() {

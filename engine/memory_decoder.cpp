@@ -27,6 +27,19 @@ struct MemoryDecoder::Impl {
     }
   }
 
+  void CheckCounts() const {
+    uint64_t vertices = 0, faces = 0;
+    for (const SubtreeReader& subtree : subtrees) {
+      vertices += subtree.state().positions().size();
+      faces += subtree.state().face_count();
+    }
+    for (const SeamReader& seam : seams) faces += seam.state().face_count();
+    const io::LayerRecord& layer = container.table().layers[decoded];
+    if (vertices != layer.vertices || faces != layer.faces) {
+      throw Failure(ErrorKind::kCorrupt, "decoded counts differ from those of the table");
+    }
+  }
+
   io::ContainerReader container;
   CodecParameters parameters;
   std::deque<SubtreeReader> subtrees;  // addresses stay: seams point into them
@@ -66,6 +79,7 @@ Result<void> MemoryDecoder::DecodeNextLayer() {
     }
     for (SubtreeReader& subtree : impl_->subtrees) subtree.DecodeLayer();
     for (SeamReader& seam : impl_->seams) seam.DecodeLayer();
+    impl_->CheckCounts();
     ++impl_->decoded;
     return {};
   } catch (const Failure& failure) {

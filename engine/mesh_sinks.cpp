@@ -10,6 +10,10 @@ namespace {
 constexpr uint64_t kOutside = ~uint64_t{0};
 constexpr size_t kFacesPerWrite = 65536;
 
+[[noreturn]] void ThrowCountsDiffer() {
+  throw Failure(ErrorKind::kCorrupt, "decoded counts differ from those of the table");
+}
+
 /// Entry `subtree` of a table that grows as subtrees arrive.
 template <class T>
 std::vector<T>& EntryFor(std::vector<std::vector<T>>& table, uint32_t subtree) {
@@ -21,6 +25,7 @@ std::vector<T>& EntryFor(std::vector<std::vector<T>>& table, uint32_t subtree) {
 
 void PlySink::AddSubtree(uint32_t subtree, std::span<const Int3> positions,
                          std::span<const Face> faces, std::span<const uint32_t> border_vertices) {
+  if (positions.size() > expected_.vertices - vertices_) ThrowCountsDiffer();
   xyz_.clear();
   xyz_.reserve(positions.size() * 3);
   for (const Int3& p : positions) {
@@ -48,9 +53,14 @@ void PlySink::AddSeam(std::span<const SeamFace> faces) {
 }
 
 void PlySink::Flush(std::vector<io::Triangle>* triangles) {
+  if (triangles->size() > expected_.faces - faces_) ThrowCountsDiffer();
   writer_.AppendFaces(*triangles).value();
   faces_ += triangles->size();
   triangles->clear();
+}
+
+void PlySink::CheckComplete() const {
+  if (vertices_ != expected_.vertices || faces_ != expected_.faces) ThrowCountsDiffer();
 }
 
 RegionSink::RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,

@@ -19,7 +19,10 @@ namespace folprom {
 /// Writes every part straight to its place in the output.
 class PlySink final : public MeshSink {
  public:
-  PlySink(const Lattice& lattice, io::PlyWriter& writer) : lattice_(lattice), writer_(writer) {}
+  /// expected: counts for which the writer was made. More, or at the end fewer, is kCorrupt.
+  PlySink(const Lattice& lattice, const io::LayerRecord& expected, io::PlyWriter& writer)
+      : lattice_(lattice), expected_(expected), writer_(writer) {}
+  void CheckComplete() const;
   void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
                   std::span<const uint32_t> border_vertices) override;
   void AddSeam(std::span<const SeamFace> faces) override;
@@ -29,6 +32,7 @@ class PlySink final : public MeshSink {
  private:
   void Flush(std::vector<io::Triangle>* triangles);
   Lattice lattice_;
+  io::LayerRecord expected_;
   io::PlyWriter& writer_;
   uint64_t vertices_ = 0, faces_ = 0;
   std::vector<std::vector<uint64_t>> border_;  ///< per subtree: output index of each border set

@@ -46,7 +46,11 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
     tree = BuildLloydTree(chunk.positions, surface, longest, parameters.settings);
   }
   LloydTruth truth(chunk, subtree, tree);
-  SubtreeShape shape{summary.vertices, summary.box_lo, summary.box_hi, !summary.neighbours.empty()};
+  SubtreeShape shape;
+  shape.vertices = summary.vertices;
+  shape.box_lo = summary.box_lo;
+  shape.box_hi = summary.box_hi;
+  shape.has_border = !summary.neighbours.empty();
   SubtreeCoder coder(parameters, shape);
   BitEncoder bits;
   EncodedSubtree result;
@@ -92,7 +96,7 @@ EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees, const std::vector<
     participants.push_back({subtrees[i], &borders[i].record});
   }
   BorderSeamTruth truth(members, cross_faces);
-  SeamCoder coder(parameters, participants);
+  SeamCoder coder(parameters, participants, SubtreeShape().mesh_faces);
   BitEncoder bits;
   EncodedSeam result;
   for (uint32_t layer = 0; layer < parameters.schedule.layers(); ++layer) {

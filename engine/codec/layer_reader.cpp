@@ -45,7 +45,8 @@ SubtreeShape ShapeOf(const io::FileTable& table, size_t subtree) {
   return {record.vertices,
           {record.box_lo[0], record.box_lo[1], record.box_lo[2]},
           {record.box_hi[0], record.box_hi[1], record.box_hi[2]},
-          false};
+          false,
+          table.faces};
 }
 
 SubtreeReader::SubtreeReader(const io::ContainerReader& container,
@@ -63,17 +64,21 @@ void SubtreeReader::DecodeLayer() {
   NamingPlace("subtree", subtree_, layer, [&] {
     bits_.StartSegment(container_.Segment(layer, subtree_, io::SegmentPart::kInner).value());
     coder_.CodeLayer(bits_, nullptr, nullptr);
+    bits_.FinishSegment();
   });
 }
 
 SeamReader::SeamReader(const io::ContainerReader& container, const CodecParameters& parameters,
                        size_t owner, std::vector<SeamCoder::Participant> participants)
-    : container_(container), owner_(owner), coder_(parameters, std::move(participants)) {}
+    : container_(container),
+      owner_(owner),
+      coder_(parameters, std::move(participants), container.table().faces) {}
 
 void SeamReader::DecodeLayer() {
   NamingPlace("seam", owner_, layer_, [&] {
     bits_.StartSegment(container_.Segment(layer_, owner_, io::SegmentPart::kSeam).value());
     coder_.CodeLayer(bits_, nullptr, nullptr);
+    bits_.FinishSegment();
   });
   ++layer_;
 }

@@ -6,12 +6,15 @@
 
 namespace folprom {
 
-SeamCoder::SeamCoder(const CodecParameters& parameters, std::vector<Participant> participants)
+SeamCoder::SeamCoder(const CodecParameters& parameters, std::vector<Participant> participants,
+                     uint64_t mesh_faces)
     : parameters_(parameters),
+      mesh_faces_(mesh_faces),
       participants_(std::move(participants)),
       vertex_of_border_(participants_.size()),
       split_coder_(parameters.connectivity()),
-      root_face_({1}) {}
+      root_face_({1}),
+      exceptions_(mesh_faces) {}
 
 template <class Coder>
 void SeamCoder::CodeLayer(Coder& coder, SeamTruth* truth, uint64_t* meter) {
@@ -70,6 +73,7 @@ void SeamCoder::ReplayEvent(Coder& coder, uint32_t participant, uint32_t index, 
     }
     uint32_t added =
         split_coder_.Code(coder, complex_, positions_, vertex, known, oracle, meter, meter);
+    CheckSize(complex_, mesh_faces_);
     positions_.push_back(event.second_position);
     name_.push_back({participants_[participant].subtree,
                      static_cast<uint32_t>(vertex_of_border_[participant].size())});

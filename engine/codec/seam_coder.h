@@ -44,8 +44,10 @@ class SeamCoder {
     uint32_t subtree;
     const BorderRecord* border;  ///< must hold a layer's events before CodeLayer for it
   };
-  /// Participants: the lower neighbours in ascending order, then the owner.
-  SeamCoder(const CodecParameters& parameters, std::vector<Participant> participants);
+  /// Participants: the lower neighbours in ascending order, then the owner. mesh_faces: as in
+  /// SubtreeShape.
+  SeamCoder(const CodecParameters& parameters, std::vector<Participant> participants,
+            uint64_t mesh_faces);
 
   template <class Coder>
   void CodeLayer(Coder& coder, SeamTruth* truth, uint64_t* meter);
@@ -61,6 +63,7 @@ class SeamCoder {
                    uint64_t* meter);
 
   CodecParameters parameters_;
+  uint64_t mesh_faces_;
   std::vector<Participant> participants_;
   uint32_t layer_ = 0;
   Complex complex_;

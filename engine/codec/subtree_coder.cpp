@@ -37,7 +37,8 @@ SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape
       split_coder_(parameters.connectivity()),
       offset_coder_(parameters.offsets()),
       border_both_({16}),
-      border_side_({1}) {}
+      border_side_({1}),
+      exceptions_(shape.mesh_faces) {}
 
 template <class Coder>
 void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* meters) {
@@ -73,6 +74,7 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
 
 template <class Coder>
 void SubtreeCoder::CodeRoot(Coder& coder, SubtreeTruth* truth) {
+  if (shape_.vertices == 0) throw Failure(ErrorKind::kCorrupt, "the subtree has no vertex");
   Int3 root;
   if constexpr (Coder::kEncoding) root = truth->RootRepresentative();
   root.x = CodeCoordinate(coder, shape_.box_lo.x, shape_.box_hi.x, root.x);
@@ -281,6 +283,7 @@ uint32_t SubtreeCoder::CodeBinarySplit(Coder& coder, uint32_t set, const Int3& f
   if constexpr (Coder::kEncoding) oracle = truth->oracle();
   uint32_t added = split_coder_.Code(coder, complex_, positions_, set, known, oracle,
                                      &meters->connectivity, &meters->exceptions);
+  CheckSize(complex_, shape_.mesh_faces);
   positions_[set] = first;
   positions_.push_back(second);
   sets_.push_back({});

@@ -52,6 +52,8 @@ struct SubtreeShape {
   uint32_t vertices = 0;
   Int3 box_lo, box_hi;
   bool has_border = false;  ///< does any face reach into another subtree
+  /// Faces of the whole mesh: neither faces nor, three times as many, edges can be more.
+  uint64_t mesh_faces = ~uint64_t{0} / 4;
 };
 
 /// State of one subtree between layers. Memory is proportional to what has been decoded.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/mesh/types.h"
+#include "folprom/result.h"
 
 namespace folprom {
 
@@ -119,6 +120,13 @@ class Complex {
   std::vector<HalfEdge> half_edges_;
   std::vector<Corner> corners_;
 };
+
+/// Throws Failure kCorrupt when a complex has more faces, or edges, than `mesh_faces` faces allow.
+inline void CheckSize(const Complex& complex, uint64_t mesh_faces) {
+  if (complex.face_count() > mesh_faces || complex.edge_count() > 3 * mesh_faces) {
+    throw Failure(ErrorKind::kCorrupt, "more faces or edges coded than the table announces");
+  }
+}
 
 /// Next and previous corner of the same face.
 inline uint32_t NextCorner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }

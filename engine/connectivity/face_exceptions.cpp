@@ -63,10 +63,10 @@ FaceCensus TakeCensus(const Complex& complex, const std::vector<Face>& originals
   return census;
 }
 
-void FaceExceptions::Repeat(const Face& face, uint32_t count) {
-  // A count is at most 2^32; what it stands for must not be allocated on a file's word alone.
-  constexpr uint32_t kMostCopies = 1 << 20;
-  if (count > kMostCopies) throw Failure(ErrorKind::kCorrupt, "coded number of face copies too large");
+void FaceExceptions::Repeat(const Complex& complex, const Face& face, uint32_t count) {
+  if (count > most_faces_ || FaceCount(complex) + count > most_faces_) {
+    throw Failure(ErrorKind::kCorrupt, "more faces coded than the table announces");
+  }
   extra_.insert(extra_.end(), count, face);
 }
 
@@ -110,8 +110,8 @@ void FaceExceptions::Code(Coder& coder, const Complex& complex, const FaceCensus
       if (!turned) against = opposite.CodeUnsigned(coder, {std::min(before_opposite, 3u)}, against);
       Face face = complex.face(f);
       Face back{face[0], face[2], face[1]};
-      Repeat(turned ? back : face, along);
-      Repeat(turned ? face : back, against);
+      Repeat(complex, turned ? back : face, along);
+      Repeat(complex, turned ? face : back, against);
       before_same = along;
       before_opposite = against;
     }
@@ -124,7 +124,7 @@ void FaceExceptions::Code(Coder& coder, const Complex& complex, const FaceCensus
       for (size_t i = 0; i < 2; ++i) {
         uint32_t count = census != nullptr ? census->on_edge[e][i] : 0;
         count = on_edge.CodeUnsigned(coder, {std::min(before, 3u)}, count);
-        Repeat({ends[i], ends[i], ends[1 - i]}, count);
+        Repeat(complex, {ends[i], ends[i], ends[1 - i]}, count);
         before = count;
       }
     }
@@ -132,7 +132,7 @@ void FaceExceptions::Code(Coder& coder, const Complex& complex, const FaceCensus
     for (uint32_t v = 0; v < complex.vertex_count(); ++v) {
       uint32_t count = census != nullptr ? census->on_vertex[v] : 0;
       count = on_vertex.CodeUnsigned(coder, {std::min(before, 3u)}, count);
-      Repeat({v, v, v}, count);
+      Repeat(complex, {v, v, v}, count);
       before = count;
     }
   }

@@ -26,6 +26,9 @@ FaceCensus TakeCensus(const Complex& complex, const std::vector<Face>& originals
 /// Coded once, when every set is a single vertex.
 class FaceExceptions {
  public:
+  /// most_faces: more than this is kCorrupt, so that a few bytes cannot ask for endless copies.
+  explicit FaceExceptions(uint64_t most_faces) : most_faces_(most_faces) {}
+
   /// census: encoder only.
   template <class Coder>
   void Code(Coder& coder, const Complex& complex, const FaceCensus* census);
@@ -37,7 +40,8 @@ class FaceExceptions {
   void AppendFaces(const Complex& complex, std::vector<Face>* faces) const;
 
  private:
-  void Repeat(const Face& face, uint32_t count);
+  void Repeat(const Complex& complex, const Face& face, uint32_t count);
+  uint64_t most_faces_;
   std::vector<bool> reversed_;  ///< per face; empty when none is
   std::vector<Face> extra_;     ///< further copies and degenerate faces
 };

@@ -116,6 +116,12 @@ class BitDecoder {
     return bit;
   }
   void SetMeter(uint64_t*) {}
+  /// Throws Failure kCorrupt when the segment holds bytes that no decision needed.
+  void FinishSegment() const {
+    if (bytes_.size() > position_) {
+      throw Failure(ErrorKind::kCorrupt, "coded segment is longer than its content");
+    }
+  }
 
  private:
   void Shift() {

@@ -26,7 +26,8 @@ ProgramFiles* DecodeLibrary::files_ = nullptr;
 std::vector<std::array<float, 3>> AsFloats(const DecodedMesh& mesh) {
   std::vector<std::array<float, 3>> rounded;
   for (const auto& p : mesh.positions) {
-    rounded.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+    rounded.push_back(
+        {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
   }
   return rounded;
 }
@@ -105,7 +106,8 @@ TEST_F(DecodeLibrary, StartsNoThread) {
 }
 
 TEST_F(DecodeLibrary, RefusesWhatIsNoFile) {
-  for (const std::vector<uint8_t>& bytes : {std::vector<uint8_t>{}, std::vector<uint8_t>(100, 0xf7)}) {
+  for (const std::vector<uint8_t>& bytes :
+       {std::vector<uint8_t>{}, std::vector<uint8_t>(100, 0xf7)}) {
     EXPECT_FALSE(MemoryDecoder::Open(bytes).ok());
   }
 }

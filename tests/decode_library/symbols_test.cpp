@@ -19,7 +19,8 @@ TEST(Symbols, OfTheDecoderNeedNoThreadsAndNoOtherLibrary) {
       ++seen;
       for (const char* foreign :
            {"tbb", "openvdb", "spdlog", "fmt::", "pthread_create", "std::thread", "std::mutex",
-            "std::condition_variable", "std::filesystem", "mmap", "Eigen", "nlohmann", "folprom::parallel"}) {
+            "std::condition_variable", "std::filesystem", "mmap", "Eigen", "nlohmann",
+            "folprom::parallel"}) {
         EXPECT_EQ(line.find(foreign), std::string::npos) << archive << " needs " << line;
       }
     }
@@ -30,7 +31,8 @@ TEST(Symbols, OfTheDecoderNeedNoThreadsAndNoOtherLibrary) {
 TEST(Symbols, OfThisProgramComeFromNoOtherLibrary) {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
-    for (const char* foreign : {"libtbb", "libopenvdb", "libspdlog", "libfmt", "libHalf", "libblosc"}) {
+    for (const char* foreign :
+         {"libtbb", "libopenvdb", "libspdlog", "libfmt", "libHalf", "libblosc"}) {
       EXPECT_EQ(line.find(foreign), std::string::npos) << line;
     }
   }

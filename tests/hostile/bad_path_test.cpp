@@ -101,8 +101,8 @@ TEST_F(BadPath, InputOfAnotherKindIsRefused) { ExpectInputError(folder_.File("ol
 TEST_F(BadPath, MissingTemporaryFolderIsRefused) {
   EncodeOptions options = SmallOptions();
   options.temporary_folder = folder_.File("missing");
-  auto report = EncodeFile(folder_.File("scan.ply"), folder_.File("out"), options, *runner_,
-                           progress_);
+  auto report =
+      EncodeFile(folder_.File("scan.ply"), folder_.File("out"), options, *runner_, progress_);
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().kind, ErrorKind::kOutput) << report.error().message;
   EXPECT_NE(report.error().message.find("missing"), std::string::npos);
@@ -117,16 +117,16 @@ TEST_F(BadPath, OptionsThatContradictThemselvesAreRefused) {
   inside_out.use_region = true;
   inside_out.region_lo[1] = 1;
   for (const DecodeOptions& options : {two_bounds, inside_out}) {
-    auto report = DecodeFile(folder_.File("scan.folp"), folder_.File("out"), options, *runner_,
-                             progress_);
+    auto report =
+        DecodeFile(folder_.File("scan.folp"), folder_.File("out"), options, *runner_, progress_);
     ASSERT_FALSE(report.ok());
     EXPECT_EQ(report.error().kind, ErrorKind::kUsage);
     EXPECT_EQ(folder_.Names(), before_);
   }
   EncodeOptions wrong = SmallOptions();
   wrong.codec.children = 1;
-  auto report = EncodeFile(folder_.File("scan.ply"), folder_.File("out"), wrong, *runner_,
-                           progress_);
+  auto report =
+      EncodeFile(folder_.File("scan.ply"), folder_.File("out"), wrong, *runner_, progress_);
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().kind, ErrorKind::kUsage);
   EXPECT_EQ(folder_.Names(), before_);

@@ -1,4 +1,5 @@
-// Scans that are damaged, cut or not finite: an input error or a file that verifies, nothing between.
+// Scans that are damaged, cut or not finite: an input error or a file that verifies, nothing
+// between.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -191,11 +192,12 @@ TEST(BadScan, OfRandomTrianglesVerifiesAtTheFinestLattice) {
     TestMesh mesh;
     for (int v = 0; v < 200; ++v) {
       // Heights that have nothing to do with distances: steep places, vertices above each other.
-      mesh.positions.push_back({part(random), std::floor(part(random) * 4) / 4,
-                                std::exp2(-20 * part(random))});
+      mesh.positions.push_back(
+          {part(random), std::floor(part(random) * 4) / 4, std::exp2(-20 * part(random))});
     }
     auto vertex = [&] { return static_cast<uint32_t>(random() % 200); };
-    for (uint64_t f = 0; f < 50 + seed * 10; ++f) mesh.faces.push_back({vertex(), vertex(), vertex()});
+    for (uint64_t f = 0; f < 50 + seed * 10; ++f)
+      mesh.faces.push_back({vertex(), vertex(), vertex()});
     EncodeOptions options = SmallOptions(seed % 2 == 0 ? 1000 : 60);
     options.bits = 24;
     options.codec.children = 2 + static_cast<uint32_t>(seed % 7);
@@ -242,7 +244,8 @@ TEST(BadScan, OfThinPlatesVerifies) {
       options.bits = 24;
       options.codec.children = 6;
       options.codec.quantisation_levels = levels;
-      EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(ThinPlate(seed)), options), "") << seed << " " << levels;
+      EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(ThinPlate(seed)), options), "")
+          << seed << " " << levels;
     }
   }
 }

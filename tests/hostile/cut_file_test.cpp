@@ -47,7 +47,8 @@ TEST(CutFile, InsideTheTableIsCorruptAtEveryByte) {
   for (size_t bytes = 0; bytes < TableBytes(); ++bytes) {
     auto decoder = MemoryDecoder::Open(Cut(SmallFile(), bytes));
     ASSERT_FALSE(decoder.ok()) << bytes;
-    ASSERT_EQ(decoder.error().kind, ErrorKind::kCorrupt) << bytes << ": " << decoder.error().message;
+    ASSERT_EQ(decoder.error().kind, ErrorKind::kCorrupt)
+        << bytes << ": " << decoder.error().message;
   }
 }
 
@@ -96,9 +97,9 @@ TEST(CutFile, DecodesToTheFileOfItsCompleteLayers) {
     EXPECT_EQ(report->complete, complete == report->layers_total);
     EXPECT_EQ(report->warnings.empty(), report->complete) << bytes;
     options.layers = static_cast<uint32_t>(complete);
-    ASSERT_TRUE(DecodeFile(folder.File("whole.folp"), folder.File("same.ply"), options, *runner,
-                           progress)
-                    .ok());
+    ASSERT_TRUE(
+        DecodeFile(folder.File("whole.folp"), folder.File("same.ply"), options, *runner, progress)
+            .ok());
     EXPECT_EQ(FileContent(folder.File("cut.ply")), FileContent(folder.File("same.ply"))) << bytes;
     std::remove(folder.File("cut.ply").c_str());
     std::remove(folder.File("same.ply").c_str());

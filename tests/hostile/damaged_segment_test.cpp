@@ -35,10 +35,19 @@ bool EndsWell(std::span<const uint8_t> file) {
 Bytes FileOfKind(size_t kind) {
   EncodeOptions options = SmallOptions();
   switch (kind) {
-    case 0: break;
-    case 1: options.codec.children = 2; break;
-    case 2: options.codec.children = 8; options.codec.subtree_vertices = 400; break;
-    case 3: options.codec.split_first = false; options.codec.rounds_per_layer = 1; break;
+    case 0:
+      break;
+    case 1:
+      options.codec.children = 2;
+      break;
+    case 2:
+      options.codec.children = 8;
+      options.codec.subtree_vertices = 400;
+      break;
+    case 3:
+      options.codec.split_first = false;
+      options.codec.rounds_per_layer = 1;
+      break;
     case 4:
       options.codec.predict_theta = options.codec.predict_height = false;
       options.codec.adaptive_quantisation = false;
@@ -70,11 +79,21 @@ Bytes RandomBytes(std::mt19937_64& random, size_t size) {
   const auto fill = static_cast<uint8_t>(random());
   for (auto& byte : bytes) {
     switch (character) {
-      case 0: byte = static_cast<uint8_t>(random()); break;
-      case 1: byte = fill; break;
-      case 2: byte = static_cast<uint8_t>(random() & random() & random()); break;
-      case 3: byte = static_cast<uint8_t>(random() | random() | random()); break;
-      default: byte = random() % 8 == 0 ? static_cast<uint8_t>(random()) : fill; break;
+      case 0:
+        byte = static_cast<uint8_t>(random());
+        break;
+      case 1:
+        byte = fill;
+        break;
+      case 2:
+        byte = static_cast<uint8_t>(random() & random() & random());
+        break;
+      case 3:
+        byte = static_cast<uint8_t>(random() | random() | random());
+        break;
+      default:
+        byte = random() % 8 == 0 ? static_cast<uint8_t>(random()) : fill;
+        break;
     }
   }
   return bytes;

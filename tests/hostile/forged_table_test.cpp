@@ -69,8 +69,8 @@ TEST(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   using S = CodecSettings;
-  for (double S::*field : {&S::metric_a, &S::metric_b, &S::lloyd_threshold,
-                           &S::curvature_threshold, &S::gaussian_ratio}) {
+  for (double S::*field : {&S::metric_a, &S::metric_b, &S::lloyd_threshold, &S::curvature_threshold,
+                           &S::gaussian_ratio}) {
     for (double value : {nan, infinity, -infinity, -1.0, 1e300}) {
       ExpectCorrupt(WithSettings([&](S& s) { s.*field = value; }), std::to_string(value));
     }
@@ -93,15 +93,15 @@ TEST(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
 TEST(ForgedTable, WithAnyByteOfTheSettingsChangedEndsWell) {
   const Parts small = Small();
   // Each bit flipped, all bits set, none.
-  const std::string faults = RunGuarded(small.table.codec.size() * 10, 20, kAllowedBytes,
-                                        [&](size_t i) {
-    Parts parts = small;
-    uint8_t& byte = parts.table.codec[i / 10];
-    const size_t change = i % 10;
-    byte = static_cast<uint8_t>(change < 8 ? byte ^ (1u << change) : (change == 8 ? 0 : 255));
-    const ErrorKind error = ErrorOf(PutTogether(std::move(parts)));
-    return error == ErrorKind::kCorrupt || error == ErrorKind::kUsage;
-  });
+  const std::string faults =
+      RunGuarded(small.table.codec.size() * 10, 20, kAllowedBytes, [&](size_t i) {
+        Parts parts = small;
+        uint8_t& byte = parts.table.codec[i / 10];
+        const size_t change = i % 10;
+        byte = static_cast<uint8_t>(change < 8 ? byte ^ (1u << change) : (change == 8 ? 0 : 255));
+        const ErrorKind error = ErrorOf(PutTogether(std::move(parts)));
+        return error == ErrorKind::kCorrupt || error == ErrorKind::kUsage;
+      });
   EXPECT_EQ(faults, "");
 }
 
@@ -137,9 +137,9 @@ TEST(ForgedTable, WithAScheduleOfOtherPartsEndsWell) {
   for (uint32_t split = 0; split <= honest.schedule.layers(); ++split) {
     Parts parts = small;
     CodecParameters parameters = honest;
-    parameters.schedule = LayerSchedule(honest.extent, honest.settings.layers_per_octave,
-                                        honest.settings.rounds_per_layer, split,
-                                        honest.schedule.layers() - split);
+    parameters.schedule =
+        LayerSchedule(honest.extent, honest.settings.layers_per_octave,
+                      honest.settings.rounds_per_layer, split, honest.schedule.layers() - split);
     parts.table.codec = WriteParameters(parameters);
     if (split == honest.schedule.split_layers()) {
       EXPECT_EQ(ErrorOf(PutTogether(parts)), ErrorKind::kUsage);

@@ -64,10 +64,14 @@ std::string Verdict(int status, unsigned cpu_seconds, uint64_t growth) {
     return "killed by signal " + std::to_string(WTERMSIG(status));
   }
   switch (WEXITSTATUS(status)) {
-    case kBroken: return "breaks its promise";
-    case kThrown: return "throws";
-    case kFlooded: return "memory grows by " + std::to_string(growth >> 10) + " KiB";
-    default: return "ends with status " + std::to_string(WEXITSTATUS(status));
+    case kBroken:
+      return "breaks its promise";
+    case kThrown:
+      return "throws";
+    case kFlooded:
+      return "memory grows by " + std::to_string(growth >> 10) + " KiB";
+    default:
+      return "ends with status " + std::to_string(WEXITSTATUS(status));
   }
 }
 
@@ -75,8 +79,8 @@ std::string Verdict(int status, unsigned cpu_seconds, uint64_t growth) {
 
 std::string RunGuarded(size_t cases, unsigned cpu_seconds, uint64_t growth_bytes,
                        const std::function<bool(size_t)>& work) {
-  void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                      -1, 0);
+  void* memory =
+      mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::runtime_error("no shared memory");
   auto* shared = new (memory) Shared;
   std::string faults;

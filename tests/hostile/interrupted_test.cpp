@@ -77,8 +77,8 @@ class Interrupted : public ::testing::Test {
     return [this](parallel::Runner& runner, parallel::Progress& progress) {
       EncodeOptions options = SmallOptions(1000);
       options.temporary_folder = folder_.path();
-      return Outcome(EncodeFile(folder_.File("scan.ply"), folder_.File("out"), options, runner,
-                                progress));
+      return Outcome(
+          EncodeFile(folder_.File("scan.ply"), folder_.File("out"), options, runner, progress));
     };
   }
   Job Decode(bool region) {
@@ -90,8 +90,8 @@ class Interrupted : public ::testing::Test {
         options.region_lo[i] = -10;
         options.region_hi[i] = 0.7;
       }
-      return Outcome(DecodeFile(folder_.File("scan.folp"), folder_.File("out"), options, runner,
-                                progress));
+      return Outcome(
+          DecodeFile(folder_.File("scan.folp"), folder_.File("out"), options, runner, progress));
     };
   }
   Job Verify() {

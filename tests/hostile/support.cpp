@@ -81,7 +81,8 @@ TestMesh WavySheet(uint32_t side) {
   TestMesh mesh;
   for (uint32_t y = 0; y < side; ++y) {
     for (uint32_t x = 0; x < side; ++x) {
-      mesh.positions.push_back({x * 0.01, y * 0.01, 0.05 * std::sin(x * 0.11) * std::cos(y * 0.07)});
+      mesh.positions.push_back(
+          {x * 0.01, y * 0.01, 0.05 * std::sin(x * 0.11) * std::cos(y * 0.07)});
       if (x + 1 == side || y + 1 == side) continue;
       uint32_t here = y * side + x;
       mesh.faces.push_back({here, here + 1, here + side});
@@ -115,8 +116,8 @@ std::string PlyBytes(const TestMesh& mesh, PlyForm form) {
       out.back() = '\n';
     }
     for (const auto& f : mesh.faces) {
-      out += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " +
-             std::to_string(f[2]) + "\n";
+      out += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) +
+             "\n";
     }
     return out;
   }
@@ -189,11 +190,10 @@ Parts TakeApart(std::span<const uint8_t> file) {
 Bytes PutTogether(Parts parts) {
   parts.table.segment_bytes.clear();
   for (const Bytes& segment : parts.segments) parts.table.segment_bytes.push_back(segment.size());
-  return io::WriteContainerToMemory(
-      parts.table, [&](size_t layer, size_t subtree, io::SegmentPart part) {
-        return std::span<const uint8_t>(
-            parts.segments[parts.table.SegmentIndex(layer, subtree, part)]);
-      });
+  return io::WriteContainerToMemory(parts.table, [&](size_t layer, size_t subtree,
+                                                     io::SegmentPart part) {
+    return std::span<const uint8_t>(parts.segments[parts.table.SegmentIndex(layer, subtree, part)]);
+  });
 }
 
 std::string SharedData() {

@@ -41,8 +41,8 @@ struct TestMesh {
   std::vector<std::array<uint32_t, 3>> faces;
 };
 
-/// A torus with relief, `rings` x `sides` vertices, and what no clean scan has: an isolated vertex, a
-/// coincident one, a copied, a reversed and a degenerate face, an edge of three faces.
+/// A torus with relief, `rings` x `sides` vertices, and what no clean scan has: an isolated vertex,
+/// a coincident one, a copied, a reversed and a degenerate face, an edge of three faces.
 TestMesh RoughTorus(uint32_t rings, uint32_t sides);
 /// A wavy sheet of side x side vertices.
 TestMesh WavySheet(uint32_t side);
@@ -64,8 +64,8 @@ struct Lod {
   std::vector<std::array<uint64_t, 3>> faces;
   bool operator==(const Lod&) const = default;
 };
-/// The LOD after each layer that decodes; stops at the first error, which goes to *error (kUsage when
-/// there was none).
+/// The LOD after each layer that decodes; stops at the first error, which goes to *error (kUsage
+/// when there was none).
 std::vector<Lod> DecodeLods(std::span<const uint8_t> file, ErrorKind* error);
 
 /// A .folp file taken apart, to be damaged and put together with right checksums.

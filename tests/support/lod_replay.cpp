@@ -96,7 +96,8 @@ struct Seam {
   Seam(const FolpFile& file, uint32_t number, const std::deque<Subtree>& subtrees)
       : owner(number),
         truth(Members(file, number, subtrees), subtrees[number].chunk.cross_faces),
-        coder(file.parameters(), Participants(file, number, subtrees, false)),
+        coder(file.parameters(), Participants(file, number, subtrees, false),
+              file.table().faces),
         reader(file.container(), file.parameters(), number,
                Participants(file, number, subtrees, true)) {}
 

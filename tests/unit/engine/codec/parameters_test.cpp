@@ -73,7 +73,8 @@ TEST(LayerSchedule, FallsFromLayerToLayerToTheLeafBound) {
   for (const Int3& extent : {Int3{1, 0, 0}, kExtent, Int3{kWidest, kWidest, kWidest}}) {
     for (double edge : {0.0, 50.0, 1e4}) {
       for (uint32_t per_octave = 1; per_octave <= 8; ++per_octave) {
-        const LayerSchedule schedule(extent, per_octave, 2, SplitLayersFor(extent, edge, per_octave),
+        const LayerSchedule schedule(extent, per_octave, 2,
+                                     SplitLayersFor(extent, edge, per_octave),
                                      RefineLayersFor(extent, edge, per_octave));
         double spacing = 2e9, bound = 2e9;
         for (uint32_t layer = 0; layer < schedule.layers(); ++layer) {

@@ -67,8 +67,8 @@ Chunk Soup(uint64_t seed) {
   }
   for (uint64_t f = random() % count; f > 0; --f) {
     const uint32_t a = vertex(), b = vertex();
-    chunk.cross_faces.push_back({{{{0, a}, {0, b}, {1, 0}}},
-                                 {chunk.positions[a], chunk.positions[b], Int3{5, 5, 5}}});
+    chunk.cross_faces.push_back(
+        {{{{0, a}, {0, b}, {1, 0}}}, {chunk.positions[a], chunk.positions[b], Int3{5, 5, 5}}});
   }
   return chunk;
 }
@@ -167,7 +167,8 @@ TEST(SubtreeCoder, GivesBackSoupsWithBorders) {
 TEST(SubtreeCoder, TakesFewerBytesForASheetThanForASoup) {
   auto bytes = [](const Chunk& chunk) {
     size_t sum = 0;
-    for (const auto& s : EncodeSubtree(chunk.view(), chunk.summary(), 0, ParametersFor(4, true)).segments) {
+    for (const auto& s :
+         EncodeSubtree(chunk.view(), chunk.summary(), 0, ParametersFor(4, true)).segments) {
       sum += s.size();
     }
     return sum;
@@ -180,7 +181,8 @@ TEST(SubtreeCoder, TakesFewerBytesForASheetThanForASoup) {
 
 TEST(SubtreeCoder, DistancesBoundWhatIsDecoded) {
   const Chunk chunk = Sheet(25);
-  const EncodedSubtree encoded = EncodeSubtree(chunk.view(), chunk.summary(), 0, ParametersFor(4, true));
+  const EncodedSubtree encoded =
+      EncodeSubtree(chunk.view(), chunk.summary(), 0, ParametersFor(4, true));
   EXPECT_LT(encoded.distance.back(), encoded.distance.front() / 10);
   EXPECT_LE(encoded.distance.back(), 31 * std::sqrt(3.0));
 }

@@ -138,8 +138,8 @@ Recording Record(const Mesh& mesh, const ConnectivitySettings& settings, uint64_
     SplitCoder::Known known;
     known.first = mesh.positions[set[0]];
     known.second = mesh.positions[second[0]];
-    const uint32_t added = coder.Code(bits, r.complex, positions, vertex, known, &oracle,
-                                      &meters[0], &meters[1]);
+    const uint32_t added =
+        coder.Code(bits, r.complex, positions, vertex, known, &oracle, &meters[0], &meters[1]);
     EXPECT_EQ(added, r.complex.vertex_count() - 1);
     r.splits.push_back({vertex, known});
     positions[vertex] = known.first;
@@ -169,7 +169,8 @@ Complex Replay(const Recording& r, const ConnectivitySettings& settings) {
   // The root's own position is in no context: it has no neighbours.
   uint64_t meters[2] = {0, 0};
   for (const auto& split : r.splits) {
-    coder.Code(bits, complex, positions, split.vertex, split.known, nullptr, &meters[0], &meters[1]);
+    coder.Code(bits, complex, positions, split.vertex, split.known, nullptr, &meters[0],
+               &meters[1]);
     positions[split.vertex] = split.known.first;
     positions.push_back(split.known.second);
   }
@@ -184,8 +185,8 @@ void ExpectSameComplex(const Complex& a, const Complex& b) {
   for (uint32_t f = 0; f < a.face_count(); ++f) ASSERT_EQ(a.face(f), b.face(f));
 }
 
-constexpr ConnectivitySettings kAllSettings[] = {{true, true}, {false, true}, {true, false},
-                                                 {false, false}};
+constexpr ConnectivitySettings kAllSettings[] = {
+    {true, true}, {false, true}, {true, false}, {false, false}};
 
 TEST(SplitCoder, KeepsTheImagesOfRandomMeshesAtEverySplit) {
   for (uint64_t seed = 0; seed < 400; ++seed) {
@@ -283,7 +284,7 @@ TEST(FaceExceptions, GiveBackEveryFaceWithItsOrientationAndNumber) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     const Recording r = Record(seed % 10 == 0 ? Sheet(5) : RandomMesh(seed), {}, seed);
     const FaceCensus census = TakeCensus(r.complex, r.final_faces, r.face_of);
-    FaceExceptions written, read;
+    FaceExceptions written(1000000), read(1000000);
     BitEncoder encoder;
     written.Code(encoder, r.complex, &census);
     const auto bytes = encoder.TakeSegment();
@@ -309,7 +310,7 @@ TEST(FaceExceptions, RandomBytesGiveFacesOfTheComplexOrAnError) {
     if (round % 2 == 0) bytes.insert(bytes.begin(), 0);  // towards all three kinds of exceptions
     BitDecoder decoder;
     decoder.StartSegment(bytes);
-    FaceExceptions exceptions;
+    FaceExceptions exceptions(1000000);
     try {
       exceptions.Code(decoder, r.complex, nullptr);
     } catch (const Failure& failure) {
@@ -319,6 +320,7 @@ TEST(FaceExceptions, RandomBytesGiveFacesOfTheComplexOrAnError) {
     std::vector<Face> faces;
     exceptions.AppendFaces(r.complex, &faces);
     ASSERT_EQ(faces.size(), exceptions.FaceCount(r.complex));
+    ASSERT_LE(faces.size(), 1000u);
     for (const Face& face : faces) {
       for (uint32_t vertex : face) ASSERT_LT(vertex, r.complex.vertex_count());
     }

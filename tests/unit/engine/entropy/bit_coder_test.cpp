@@ -18,8 +18,8 @@ std::vector<Decision> RandomDecisions(uint64_t seed, size_t count) {
   std::vector<Decision> decisions;
   for (size_t i = 0; i < count; ++i) {
     constexpr uint32_t kExtremes[] = {1, 2, 32767, 32768, 65534, 65535};
-    uint32_t probability = random() % 4 == 0 ? kExtremes[random() % 6]
-                                             : 1 + static_cast<uint32_t>(random() % 65535);
+    uint32_t probability =
+        random() % 4 == 0 ? kExtremes[random() % 6] : 1 + static_cast<uint32_t>(random() % 65535);
     // Mostly what the probability says; sometimes against it.
     bool bit = random() % 65536 < probability;
     if (random() % 50 == 0) bit = !bit;

@@ -60,8 +60,9 @@ TEST(FixedMath, AngleIsThatOfTheLibrary) {
 TEST(FixedMath, AngleHoldsOnTheAxesAndBesideThem) {
   const struct {
     double x, y, angle;
-  } cases[] = {{0, 0, 0},  {1, 0, 0},          {5, 5, kPi / 4},      {0, 2, kPi / 2},
-               {-3, 0, kPi}, {-1, -1, 1.25 * kPi}, {0, -7, 1.5 * kPi}, {4, -4, 1.75 * kPi}};
+  } cases[] = {{0, 0, 0},          {1, 0, 0},          {5, 5, kPi / 4},
+               {0, 2, kPi / 2},    {-3, 0, kPi},       {-1, -1, 1.25 * kPi},
+               {0, -7, 1.5 * kPi}, {4, -4, 1.75 * kPi}};
   for (const auto& c : cases) EXPECT_NEAR(Angle(c.x, c.y), c.angle, 1e-14) << c.x << " " << c.y;
   for (double tiny : {1e-3, 1e-9, 1e-15, 1e-200}) {
     for (double y : {tiny, -tiny}) {

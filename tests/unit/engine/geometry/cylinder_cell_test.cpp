@@ -66,7 +66,8 @@ bool Contains(const CylinderCell& cell, const CylinderPoint& p) {
 Vector3 InSpace(const LocalFrame& frame, const CylinderPoint& p) {
   const double u = p.rho * std::cos(p.theta), v = p.rho * std::sin(p.theta);
   const Vector3 y = frame.y();
-  return {u * frame.x[0] + v * y[0] + p.z * frame.z[0], u * frame.x[1] + v * y[1] + p.z * frame.z[1],
+  return {u * frame.x[0] + v * y[0] + p.z * frame.z[0],
+          u * frame.x[1] + v * y[1] + p.z * frame.z[1],
           u * frame.x[2] + v * y[2] + p.z * frame.z[2]};
 }
 

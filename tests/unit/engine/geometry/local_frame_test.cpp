@@ -84,9 +84,10 @@ TEST(MeasureNeighbourhood, WithoutNeighboursTakesTheScaleAndTheGlobalAxes) {
 
 TEST(MeasureNeighbourhood, OfOneOrTwoNeighboursTakesTheirDistanceAsHeight) {
   const Int3 vertex{1000, 1000, 1000};
-  const std::vector<std::vector<Int3>> rings = {
-      {{1000, 1000, 1400}}, {{1300, 1400, 1000}}, {{1000, 1300, 1000}, {1400, 1000, 1000}},
-      {{1300, 1000, 1000}, {700, 1000, 1000}}};
+  const std::vector<std::vector<Int3>> rings = {{{1000, 1000, 1400}},
+                                                {{1300, 1400, 1000}},
+                                                {{1000, 1300, 1000}, {1400, 1000, 1000}},
+                                                {{1300, 1000, 1000}, {700, 1000, 1000}}};
   for (const auto& ring : rings) {
     const Neighbourhood found = MeasureNeighbourhood(vertex, ring, 1);
     ExpectFinite(found);

@@ -23,7 +23,9 @@ Neighbourhood RandomNeighbourhood(std::mt19937_64& random, double spacing) {
   const Int3 vertex{1 << 28, 1 << 28, 1 << 28};
   std::vector<Int3> ring;
   for (uint64_t i = 0; i < random() % 9; ++i) {
-    auto at = [&](double flat) { return (1 << 28) + static_cast<int32_t>(flat * spacing * part(random)); };
+    auto at = [&](double flat) {
+      return (1 << 28) + static_cast<int32_t>(flat * spacing * part(random));
+    };
     ring.push_back({at(1), at(1), at(0.2)});
   }
   return MeasureNeighbourhood(vertex, ring, spacing);
@@ -93,17 +95,17 @@ std::vector<Split> RandomSplits(const OffsetSettings& settings, uint64_t seed) {
   std::vector<Split> splits;
   for (int i = 0; i < 300; ++i) {
     Split split;
-    split.context = {std::exp2(static_cast<double>(random() % 34)), static_cast<uint32_t>(random() % 9),
-                     static_cast<uint32_t>(random() % 9)};
+    split.context = {std::exp2(static_cast<double>(random() % 34)),
+                     static_cast<uint32_t>(random() % 9), static_cast<uint32_t>(random() % 9)};
     split.at = RandomNeighbourhood(random, 1e5);
     split.count = 1 + static_cast<uint32_t>(random() % settings.children);
     for (uint32_t c = 0; c < split.count; ++c) {
       // Up to what a child may be away: 2^30 lattice units in steps of 30.5 and more.
       const uint32_t size = static_cast<uint32_t>(random() % 18);
-      split.offsets.push_back({static_cast<uint32_t>(random() % settings.levels),
-                               static_cast<uint32_t>(random() & ((1u << size) - 1)),
-                               static_cast<int32_t>(random() & ((1u << size) - 1)) *
-                                   (random() % 2 == 0 ? 1 : -1)});
+      split.offsets.push_back(
+          {static_cast<uint32_t>(random() % settings.levels),
+           static_cast<uint32_t>(random() & ((1u << size) - 1)),
+           static_cast<int32_t>(random() & ((1u << size) - 1)) * (random() % 2 == 0 ? 1 : -1)});
     }
     std::sort(split.offsets.begin(), split.offsets.end(), [](const auto& a, const auto& b) {
       return std::tuple(a.theta, a.rho, a.z) < std::tuple(b.theta, b.rho, b.z);
@@ -144,7 +146,8 @@ TEST(OffsetCoder, GivesBackCountsAndOffsets) {
 }
 
 TEST(OffsetCoder, GivesBackHeightsBesideANeighbourOnTheAxis) {
-  // A ring in a plane and one neighbour above the vertex: height over squared distance says nothing.
+  // A ring in a plane and one neighbour above the vertex: height over squared distance says
+  // nothing.
   for (double reach : {0.0, 1e-11, 1e-6, 1.0}) {
     for (double bend : {-1e30, -1e9, -1.0, 0.0, 1.0, 1e9, 1e30}) {
       Neighbourhood at;
@@ -152,7 +155,8 @@ TEST(OffsetCoder, GivesBackHeightsBesideANeighbourOnTheAxis) {
       at.range_z = 4000;
       at.directions.push_back({1, 0, reach, bend});
       std::vector<std::vector<OffsetIndex>> all;
-      for (int32_t z : {0, 1, -1, 37, -37, 1000000, -1000000}) all.push_back({{3, 8, z}, {9, 2, -z}});
+      for (int32_t z : {0, 1, -1, 37, -37, 1000000, -1000000})
+        all.push_back({{3, 8, z}, {9, 2, -z}});
       OffsetCoder written({}), read({});
       BitEncoder encoder;
       const OffsetSteps steps = written.StepsFor(at, kLeast);

@@ -33,8 +33,9 @@ Sheet WavySheet(uint32_t side) {
   Sheet sheet;
   for (uint32_t i = 0; i < side * side; ++i) {
     const double x = i % side, y = i / side;
-    sheet.positions.push_back({static_cast<int32_t>(x * 1000), static_cast<int32_t>(y * 1000),
-                               static_cast<int32_t>(5000 + 4000 * std::sin(x * 0.3) * std::cos(y * 0.2))});
+    sheet.positions.push_back(
+        {static_cast<int32_t>(x * 1000), static_cast<int32_t>(y * 1000),
+         static_cast<int32_t>(5000 + 4000 * std::sin(x * 0.3) * std::cos(y * 0.2))});
     if (i % side + 1 == side || i / side + 1 == side) continue;
     sheet.faces.push_back({i, i + 1, i + side});
     sheet.faces.push_back({i + 1, i + side + 1, i + side});
@@ -120,8 +121,8 @@ std::vector<CodecSettings> AllSettings() {
 TEST(LloydTree, ChildrenPartTheirSet) {
   const Sheet sheet = WavySheet(40);
   for (const CodecSettings& settings : AllSettings()) {
-    const uint32_t depth =
-        CheckedDepth(TreeOf(sheet.positions, sheet.faces, settings), sheet.positions, settings.children);
+    const uint32_t depth = CheckedDepth(TreeOf(sheet.positions, sheet.faces, settings),
+                                        sheet.positions, settings.children);
     ASSERT_FALSE(HasFailure());
     EXPECT_LE(depth, 48u);
     for (size_t count : {1u, 2u, 3u, 4u, 5u, 9u, 300u}) {
@@ -156,7 +157,8 @@ TEST(LloydTree, OfExponentiallySpacedVerticesDoesNotGrowDeepWithTheirNumber) {
     for (int copy = 0; copy < 400; ++copy) {
       for (int bit = 0; bit < 30; ++bit) positions.push_back({1 << bit, copy % 7, copy % 3});
     }
-    const uint32_t depth = CheckedDepth(TreeOf(positions, {}, settings), positions, settings.children);
+    const uint32_t depth =
+        CheckedDepth(TreeOf(positions, {}, settings), positions, settings.children);
     ASSERT_FALSE(HasFailure());
     // 48 levels, and then halves.
     EXPECT_LE(depth, 48u + 14u);
@@ -175,7 +177,9 @@ TEST(LloydTree, PartsFarClusters) {
   std::mt19937_64 random(4);
   std::vector<Int3> positions;
   for (int i = 0; i < 400; ++i) {
-    auto near = [&](bool far) { return (far ? 100000 : 0) + static_cast<int32_t>(random() % 3000); };
+    auto near = [&](bool far) {
+      return (far ? 100000 : 0) + static_cast<int32_t>(random() % 3000);
+    };
     positions.push_back({near(i % 4 >= 2), near(i % 2 == 1), near(false)});
   }
   const SetTree tree = TreeOf(positions, {}, {});

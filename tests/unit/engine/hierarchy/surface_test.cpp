@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-
 namespace folprom {
 namespace {
 
-const std::vector<Int3> kRoof = {{0, 0, 0}, {100, 0, 100}, {200, 0, 0},
+const std::vector<Int3> kRoof = {{0, 0, 0},   {100, 0, 100},   {200, 0, 0},
                                  {0, 100, 0}, {100, 100, 100}, {200, 100, 0}};
 const std::vector<Face> kRoofFaces = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
 
@@ -47,7 +46,8 @@ TEST(MeasureSurface, TakesCrossFacesAsItsOwn) {
 
 TEST(MeasureSurface, IsZeroWithoutFacesAndOnDegenerateOnes) {
   const std::vector<Int3> points = {{0, 0, 0}, {5, 5, 5}, {10, 10, 10}, {10, 10, 10}};
-  const SurfaceAttributes surface = MeasureSurface(points, std::vector<Face>{{0, 1, 2}, {2, 3, 0}, {1, 1, 1}}, {}, 0);
+  const SurfaceAttributes surface =
+      MeasureSurface(points, std::vector<Face>{{0, 1, 2}, {2, 3, 0}, {1, 1, 1}}, {}, 0);
   for (size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(surface.curvature[i], 0);
     for (int k = 0; k < 3; ++k) EXPECT_EQ(surface.normals[i][k], 0);

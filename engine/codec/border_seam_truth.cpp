@@ -163,13 +163,7 @@ void BorderSeamTruth::BeginSplit(uint32_t participant, uint32_t event, uint32_t 
 }
 
 FaceCensus BorderSeamTruth::CountFaces(const Complex& complex) const {
-  std::vector<Face> originals(real_faces_);
-  std::vector<uint32_t> face_of(real_faces_);
-  for (uint32_t i = 0; i < real_faces_; ++i) {
-    for (size_t k = 0; k < 3; ++k) originals[i][k] = oracle_.VertexOf(oracle_.faces()[i][k]);
-    face_of[i] = oracle_.FaceOf(i);
-  }
-  return TakeCensus(complex, originals, face_of);
+  return TakeCensus(complex, oracle_, real_faces_);
 }
 
 }  // namespace folprom

@@ -211,4 +211,14 @@ void SplitOracle::CommitNewFaces(const SplitStar& star) {
   }
 }
 
+FaceCensus TakeCensus(const Complex& complex, const SplitOracle& oracle, size_t real_faces) {
+  std::vector<Face> originals(real_faces);
+  std::vector<uint32_t> face_of(real_faces);
+  for (uint32_t i = 0; i < real_faces; ++i) {
+    for (size_t k = 0; k < 3; ++k) originals[i][k] = oracle.VertexOf(oracle.faces()[i][k]);
+    face_of[i] = oracle.FaceOf(i);
+  }
+  return TakeCensus(complex, originals, face_of);
+}
+
 }  // namespace folprom

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/connectivity/complex.h"
+#include "engine/connectivity/face_exceptions.h"
 #include "engine/connectivity/split_star.h"
 #include "engine/mesh/types.h"
 
@@ -95,5 +96,8 @@ class SplitOracle {
   uint32_t child_edge_count_ = 0;
   bool moved_is_second_ = false;
 };
+
+/// Counts the first `real_faces` originals of the oracle on the elements of its finished complex.
+FaceCensus TakeCensus(const Complex& complex, const SplitOracle& oracle, size_t real_faces);
 
 }  // namespace folprom

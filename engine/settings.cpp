@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kHierarchies[] = {"lloyd"};
 constexpr std::string_view kOffsets[] = {"cylindrical"};
-constexpr std::string_view kRepresentatives[] = {"curvature", "centre"};
+constexpr std::string_view kRepresentatives[] = {"curvature", "centre", "quadric"};
 
 using S = CodecSettings;
 
@@ -34,7 +34,8 @@ constexpr SettingKey kKeys[] = {
     {"lloyd_threshold", &S::lloyd_threshold,
      "Lloyd stops when the distortion falls by less than this part", "", 0, 1},
     {"representative", &S::representative,
-     "curvature: a vertex of high curvature where curvature varies, else centre; centre: always",
+     "curvature: a vertex of high curvature where curvature varies, else centre; centre: always; "
+     "quadric: the point nearest to the tangent planes",
      "", 0, 0, kRepresentatives},
     {"curvature_threshold", &S::curvature_threshold,
      "T_c, deviation of curvature from which a representative is chosen by curvature", "", 0, 1},
@@ -48,6 +49,10 @@ constexpr SettingKey kKeys[] = {
     {"predict_height", &S::predict_height, "predict heights from the parent (section 2.3)", ""},
     {"split_first", &S::split_first,
      "split sets of more than one vertex first, refine positions afterwards", ""},
+    {"distortion_first", &S::distortion_first,
+     "up to this part of a subtree's vertices sets are split by distortion, one flag each; then by "
+     "spacing",
+     "", 0, 1},
     {"pivot_order", &S::pivot_order,
      "pivot flags in order of regularity (section 3); false: by vertex id", ""},
     {"nearer_child", &S::nearer_child, "side flags relative to the nearer child (section 3)", ""},

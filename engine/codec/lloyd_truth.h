@@ -19,6 +19,9 @@ class LloydTruth final : public SubtreeTruth {
 
   Int3 RootRepresentative() const override { return tree_.node(0).representative; }
   uint32_t ChildCount(uint32_t set) const override;
+  double Distortion(uint32_t set) const override {
+    return tree_.node(node_of_set_[set]).distortion;
+  }
   Int3 ChildRepresentative(uint32_t set, uint32_t child) const override;
   void BeginSplit(uint32_t set, std::span<const uint32_t> order) override;
   void BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,

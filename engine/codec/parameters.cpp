@@ -18,6 +18,10 @@ constexpr double kLog2 = 0.69314718055994530942;
 /// Cells in split layers are this much smaller than the spacing when leaves do not wait.
 constexpr double kCellsPerSpacing = 16;
 
+/// The first layer's spacing as a part of the longest side: layers before it would hold a few dozen
+/// vertices, less than the table says of them.
+constexpr double kFirstSpacing = 4;
+
 double HalvedBy(double value, double octaves) {
   uint32_t whole = static_cast<uint32_t>(octaves);
   value = value * ExpExact(-(octaves - static_cast<double>(whole)) * kLog2);
@@ -48,7 +52,7 @@ double LayerSchedule::SplitSpacing(uint32_t layer, uint32_t round) const {
   if (IsLastSplitLayer(layer)) return 0;
   double steps = static_cast<double>(layer) +
                  static_cast<double>(round + 1) / static_cast<double>(rounds_per_layer_);
-  return HalvedBy(longest_ / 2, steps / static_cast<double>(layers_per_octave_));
+  return HalvedBy(longest_ / kFirstSpacing, steps / static_cast<double>(layers_per_octave_));
 }
 
 double LayerSchedule::RefineBound(uint32_t layer) const {
@@ -64,7 +68,7 @@ double LayerSchedule::RefineBound(uint32_t layer) const {
 }
 
 uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave) {
-  double finest = std::max(typical_edge / 4, 2 * kUnitsPerTolerance);
+  double finest = std::max(typical_edge / 2, 2 * kUnitsPerTolerance);
   double octaves = std::max(Log2Exact(Longest(extent) / finest), 0.0);
   return static_cast<uint32_t>(octaves * layers_per_octave) + 2;
 }

@@ -8,6 +8,19 @@
 namespace folprom {
 namespace {
 
+/// Sets whose spacing is so many times that of the round are split without asking.
+constexpr double kSurelyDue = 4;
+/// With it the spacing that stands for a distortion is about the spacing of the sets that have it.
+constexpr double kDistortionScale = 1.4;
+constexpr uint32_t kDueBuckets = 24;
+
+/// A length over the round's spacing in quarter octaves; the round's spacing itself is 16.
+uint32_t DueBucket(double length, double least_spacing) {
+  double ratio = length / least_spacing;
+  int bucket = HalfOctave(static_cast<uint64_t>(std::min(256 * ratio * ratio, 1e9)));
+  return static_cast<uint32_t>(std::clamp(bucket, 0, static_cast<int>(kDueBuckets) - 1));
+}
+
 /// Coordinate `value` in [lo, hi], all equally likely.
 template <class Coder>
 int32_t CodeCoordinate(Coder& coder, int32_t lo, int32_t hi, int32_t value) {
@@ -36,6 +49,7 @@ SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape
       shape_(shape),
       split_coder_(parameters.connectivity()),
       offset_coder_(parameters.offsets()),
+      due_({kDueBuckets * kDueBuckets, kDueBuckets}),
       border_both_({16}),
       border_side_({1}),
       exceptions_(shape.mesh_faces) {}
@@ -119,12 +133,24 @@ OffsetCoder::SetContext SubtreeCoder::ContextOf(uint32_t set, double spacing) co
 template <class Coder>
 void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth,
                              CostMeters* meters) {
+  const bool asking = least_spacing > 0 && positions_.size() > 1 &&
+                      static_cast<double>(positions_.size()) <
+                          parameters_.settings.distortion_first * shape_.vertices;
   // Children that are still large enough join the end of the list and the same round.
   size_t kept = 0;
   for (size_t i = 0; i < open_.size(); ++i) {
     uint32_t set = open_[i];
     SetRecord& record = sets_[set];
     if (record.state == kLeaf) continue;
+    if (asking) {
+      double now = Spacing(set);
+      if (CodeDue(coder, set, now, least_spacing, truth, meters)) {
+        CodeSet(coder, set, now, truth, meters);
+      } else {
+        open_[kept++] = set;
+      }
+      continue;
+    }
     // Spacings fall as neighbours split, so one that was too small before is not measured again.
     double spacing = static_cast<double>(record.spacing);
     if (spacing >= least_spacing) {
@@ -138,6 +164,24 @@ void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* t
     CodeSet(coder, set, spacing, truth, meters);
   }
   open_.resize(kept);
+}
+
+template <class Coder>
+bool SubtreeCoder::CodeDue(Coder& coder, uint32_t set, double spacing, double least_spacing,
+                           SubtreeTruth* truth, CostMeters* meters) {
+  if (spacing >= kSurelyDue * least_spacing) return true;
+  bool due = false;
+  if constexpr (Coder::kEncoding) {
+    // Distortion grows with the fourth power of the spacing.
+    const Int3& extent = parameters_.extent;
+    double longest = std::max({extent.x, extent.y, extent.z});
+    double fourth = kDistortionScale * truth->Distortion(set) * longest;
+    due = std::sqrt(std::sqrt(fourth)) >= least_spacing;
+  }
+  coder.SetMeter(&meters->split);
+  uint32_t near = DueBucket(spacing, least_spacing);
+  uint32_t reach = DueBucket(static_cast<double>(sets_[set].scale), least_spacing);
+  return due_.Code(coder, {near * kDueBuckets + reach, near}, 0, due);
 }
 
 template <class Coder>

@@ -26,6 +26,8 @@ class SubtreeTruth {
   virtual Int3 RootRepresentative() const = 0;
   /// Number of children of the set, 1 when it is a single vertex.
   virtual uint32_t ChildCount(uint32_t set) const = 0;
+  /// What the set adds to the error of an LOD: area times distance, lattice units cubed.
+  virtual double Distortion(uint32_t set) const = 0;
   virtual Int3 ChildRepresentative(uint32_t set, uint32_t child) const = 0;
   /// The coder will call the children of the set by their place in `order` (a permutation).
   virtual void BeginSplit(uint32_t set, std::span<const uint32_t> order) = 0;
@@ -93,6 +95,10 @@ class SubtreeCoder {
   void CodeRoot(Coder& coder, SubtreeTruth* truth);
   template <class Coder>
   void CodeRound(Coder& coder, double spacing, SubtreeTruth* truth, CostMeters* meters);
+  /// Is a set of this spacing split in a round down to `least_spacing`, while few are live.
+  template <class Coder>
+  bool CodeDue(Coder& coder, uint32_t set, double spacing, double least_spacing,
+               SubtreeTruth* truth, CostMeters* meters);
   /// Returns false when the set turned out to be a single vertex.
   template <class Coder>
   bool CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth, CostMeters* meters);
@@ -134,6 +140,7 @@ class SubtreeCoder {
 
   SplitCoder split_coder_;
   OffsetCoder offset_coder_;
+  MixedModel<2> due_;
   MixedModel<1> border_both_;
   MixedModel<1> border_side_;
   FaceExceptions exceptions_;

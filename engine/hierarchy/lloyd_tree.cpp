@@ -1,6 +1,7 @@
 #include "engine/hierarchy/lloyd_tree.h"
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +16,10 @@ constexpr uint32_t kMostChildren = 8;
 constexpr uint32_t kDeepest = 48;
 /// The coordinate range for which the paper gives a = 1, b = 8.
 constexpr double kPaperRange = 4096;
+/// What a unit of distance along the surface counts beside one across it: keeps sets from growing
+/// without end where the surface is flat, and quadrics from having more than one lowest point.
+constexpr double kAlongSurface = 0.05;
+constexpr double kNearCentre = 0.06;
 }  // namespace
 
 /// Builds one tree. Points are copied into the order of the tree, so that every pass is contiguous.
@@ -28,7 +33,9 @@ class LloydBuilder {
     for (uint32_t i = 0; i < positions.size(); ++i) {
       const Int3& p = positions[i];
       points_.push_back({scale_ * Eigen::Vector3d(p.x, p.y, p.z), surface.normals[i],
-                         surface.curvature[i]});
+                         surface.curvature[i], surface.areas[i]});
+      box_lo_ = {std::min(box_lo_.x, p.x), std::min(box_lo_.y, p.y), std::min(box_lo_.z, p.z)};
+      box_hi_ = {std::max(box_hi_.x, p.x), std::max(box_hi_.y, p.y), std::max(box_hi_.z, p.z)};
       tree_.order_.push_back(i);
     }
     scratch_points_.resize(points_.size());
@@ -45,6 +52,7 @@ class LloydBuilder {
       auto [index, depth] = pending.back();
       pending.pop_back();
       tree_.nodes_[index].representative = Representative(index);
+      tree_.nodes_[index].distortion = Distortion(tree_.nodes_[index]);
       uint32_t first = SplitNode(index, depth);
       for (uint32_t i = tree_.nodes_[index].child_count; i-- > 0;) {
         pending.push_back({first + i, depth + 1});
@@ -58,6 +66,7 @@ class LloydBuilder {
     Eigen::Vector3d position;  ///< paper units
     Eigen::Vector3d normal;
     double curvature;
+    double area;  ///< lattice units squared
   };
   struct Centre {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -114,8 +123,48 @@ class LloydBuilder {
     };
     Int3 middle{centre(0), centre(1), centre(2)};
     if (settings_.representative == Representative::kCentre) return middle;
+    if (settings_.representative == Representative::kQuadric) return QuadricPoint(node, middle);
     uint32_t chosen = CurvedVertex(node);
     return chosen == node.end ? middle : positions_[tree_.order_[chosen]];
+  }
+
+  /// The point nearest to the tangent planes of the members, in the least-squares sense, with a pull
+  /// towards the centre; inside the box of all vertices. Faces cut below a convex surface, and centres
+  /// lie below it too; this lies as far above.
+  Int3 QuadricPoint(const SetTree::Node& node, const Int3& centre) const {
+    const Eigen::Vector3d middle = scale_ * Eigen::Vector3d(centre.x, centre.y, centre.z);
+    Eigen::Matrix3d planes = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d heights = Eigen::Vector3d::Zero();
+    double areas = 0;
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      const Point& point = points_[i];
+      planes += point.area * point.normal * point.normal.transpose();
+      heights += point.area * point.normal.dot(point.position - middle) * point.normal;
+      areas += point.area;
+    }
+    if (!(areas > 0)) return centre;
+    planes += kNearCentre * areas * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d best = (middle + planes.inverse() * heights) / scale_;
+    auto rounded = [](double value, int32_t lo, int32_t hi) {
+      value = std::clamp(value, static_cast<double>(lo), static_cast<double>(hi));
+      return static_cast<int32_t>(value + 0.5);  // coordinates are never negative
+    };
+    return {rounded(best[0], box_lo_.x, box_hi_.x), rounded(best[1], box_lo_.y, box_hi_.y),
+            rounded(best[2], box_lo_.z, box_hi_.z)};
+  }
+
+  /// Area times distance of the members' tangent planes from the representative.
+  double Distortion(const SetTree::Node& node) const {
+    if (node.end - node.begin == 1) return 0;
+    const Int3& r = node.representative;
+    const Eigen::Vector3d centre = scale_ * Eigen::Vector3d(r.x, r.y, r.z);
+    double sum = 0;
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      const Point& point = points_[i];
+      const Eigen::Vector3d d = point.position - centre;
+      sum = sum + point.area * (std::fabs(d.dot(point.normal)) + kAlongSurface * d.norm());
+    }
+    return sum / scale_;
   }
 
   /// Place of the vertex of highest priority p_i, node.end where curvature hardly varies.
@@ -290,6 +339,7 @@ class LloydBuilder {
   const CodecSettings& settings_;
   double scale_;
   double normal_weight_ = 0;
+  Int3 box_lo_{INT32_MAX, INT32_MAX, INT32_MAX}, box_hi_{0, 0, 0};
   std::span<const Int3> positions_;
   std::vector<Point> points_, scratch_points_;
   std::vector<uint32_t> scratch_order_;

@@ -19,6 +19,7 @@ class SetTree {
     uint32_t first_child = 0;
     uint32_t child_count = 0;     ///< 0 or 2 .. K, consecutive nodes
     Int3 representative;
+    double distortion = 0;  ///< SubtreeTruth::Distortion
   };
   const Node& node(uint32_t index) const { return nodes_[index]; }
   std::span<const uint32_t> VerticesOf(uint32_t index) const {

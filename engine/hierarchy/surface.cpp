@@ -59,8 +59,10 @@ SurfaceAttributes MeasureSurface(std::span<const Int3> positions, std::span<cons
   SurfaceAttributes result;
   result.normals = std::move(sums.area_normals);
   result.curvature.assign(positions.size(), 0);
+  result.areas.assign(positions.size(), 0);
   for (size_t i = 0; i < positions.size(); ++i) {
     double length = result.normals[i].norm();
+    result.areas[i] = length / 6;
     if (length > 0) result.normals[i] /= length;
     if (sums.faces[i] == 0) continue;
     // For unit normals n_f of mean m the variance is 1 - |m|^2.

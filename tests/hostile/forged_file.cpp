@@ -20,6 +20,7 @@ class CopyingTruth final : public SubtreeTruth {
   CopyingTruth(LloydTruth& honest, uint32_t copies) : honest_(honest), copies_(copies) {}
   Int3 RootRepresentative() const override { return honest_.RootRepresentative(); }
   uint32_t ChildCount(uint32_t set) const override { return honest_.ChildCount(set); }
+  double Distortion(uint32_t set) const override { return honest_.Distortion(set); }
   Int3 ChildRepresentative(uint32_t set, uint32_t child) const override {
     return honest_.ChildRepresentative(set, child);
   }

@@ -86,7 +86,7 @@ TEST(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
   ExpectCorrupt(WithSettings([](S& s) { s.children = 9; }), "nine children");
   ExpectCorrupt(WithSettings([](S& s) { s.hierarchy = static_cast<Hierarchy>(7); }), "hierarchy");
   ExpectCorrupt(WithSettings([](S& s) { s.offsets = static_cast<Offsets>(255); }), "offsets");
-  ExpectCorrupt(WithSettings([](S& s) { s.representative = static_cast<Representative>(2); }),
+  ExpectCorrupt(WithSettings([](S& s) { s.representative = static_cast<Representative>(3); }),
                 "representative");
 }
 

@@ -89,6 +89,13 @@ std::vector<Case> Combinations() {
   few.lloyd_iterations = 1;
   few.lloyd_threshold = 1;
   cases.push_back({"FewLayersOfPoorSplits", few});
+  CodecSettings asked;
+  asked.distortion_first = 1;
+  asked.representative = Representative::kCurvature;
+  cases.push_back({"EverySplitAskedFor", asked});
+  CodecSettings spaced;
+  spaced.distortion_first = 0;
+  cases.push_back({"NoSplitAskedFor", spaced});
   return cases;
 }
 

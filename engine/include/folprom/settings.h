@@ -18,7 +18,8 @@ enum class Offsets : uint8_t {
 
 enum class Representative : uint8_t {
   kCurvature = 0,  ///< vertex of high curvature near the centre where curvature varies, else centre
-  kCentre = 1      ///< always the centre
+  kCentre = 1,     ///< always the centre
+  kQuadric = 2     ///< the point nearest to the tangent planes of the set's vertices
 };
 
 /// Settings of the coder. The same values and the same scan give the same bytes. Each field is a key
@@ -39,7 +40,7 @@ struct CodecSettings {
   double metric_b = 4;               ///< b; 1 .. 64
   uint32_t lloyd_iterations = 12;    ///< at most this many; 1 .. 100
   double lloyd_threshold = 0.01;     ///< stop when distortion falls by less than this part; 0 .. 1
-  Representative representative = Representative::kCurvature;
+  Representative representative = Representative::kQuadric;
   double curvature_threshold = 0.1;  ///< T_c; 0 .. 1
   double gaussian_ratio = 3;         ///< r_g; 0.01 .. 100
 
@@ -49,6 +50,8 @@ struct CodecSettings {
   bool predict_theta = true;          ///< section 2.3
   bool predict_height = true;         ///< section 2.3
   bool split_first = true;            ///< sets of more than one vertex first; then refinement
+  /// Up to this part of a subtree's vertices sets are split by distortion, flagged; then by spacing.
+  double distortion_first = 0.05;
 
   // Connectivity (section 3)
   bool pivot_order = true;   ///< flags in order of regularity; false: by vertex id

@@ -19,6 +19,7 @@ CodecParameters Some() {
   parameters.settings.metric_b = 3.5;
   parameters.settings.split_first = false;
   parameters.settings.representative = Representative::kCentre;
+  parameters.settings.distortion_first = 0.25;
   parameters.settings.layers_per_octave = 3;
   parameters.schedule = LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4);
   return parameters;
@@ -39,6 +40,7 @@ TEST(CodecParameters, ComeBackFromTheirBytes) {
   EXPECT_EQ(read.settings.metric_b, 3.5);
   EXPECT_FALSE(read.settings.split_first);
   EXPECT_EQ(read.settings.representative, Representative::kCentre);
+  EXPECT_EQ(read.settings.distortion_first, 0.25);
   EXPECT_EQ(read.extent, kExtent);
   EXPECT_EQ(read.schedule.split_layers(), 9u);
   EXPECT_EQ(read.schedule.refine_layers(), 4u);

@@ -198,6 +198,7 @@ TEST(LloydTree, RepresentativeIsAVertexWhereCurvatureVaries) {
   const uint32_t tip = 10 * 21 + 10;
   sheet.positions[tip].z = 9000;
   CodecSettings settings;
+  settings.representative = Representative::kCurvature;
   settings.gaussian_ratio = 100;
   settings.curvature_threshold = 0.01;
   const SetTree tree = TreeOf(sheet.positions, sheet.faces, settings);
@@ -207,6 +208,66 @@ TEST(LloydTree, RepresentativeIsAVertexWhereCurvatureVaries) {
   EXPECT_LE(off, 1000) << "the tip or a vertex beside it";
   settings.representative = Representative::kCentre;
   EXPECT_LT(TreeOf(sheet.positions, sheet.faces, settings).node(0).representative.z, 100);
+}
+
+/// Cap of a sphere of this radius around (20000, 20000, 0).
+constexpr double kCapRadius = 30000;
+Sheet Cap() {
+  Sheet cap = WavySheet(41);
+  for (Int3& p : cap.positions) {
+    const double x = p.x - 20000, y = p.y - 20000;
+    p.z = static_cast<int32_t>(std::sqrt(kCapRadius * kCapRadius - x * x - y * y));
+  }
+  return cap;
+}
+
+/// How far outside the sphere the root's grandchildren are in the mean.
+double HeightAboveTheCap(Representative representative) {
+  const Sheet cap = Cap();
+  CodecSettings settings;
+  settings.representative = representative;
+  const SetTree tree = TreeOf(cap.positions, cap.faces, settings);
+  double sum = 0;
+  uint32_t count = 0;
+  for (uint32_t c = 0; c < 4; ++c) {
+    const SetTree::Node& child = tree.node(tree.node(0).first_child + c);
+    for (uint32_t g = 0; g < child.child_count; ++g, ++count) {
+      const Int3 p = tree.node(child.first_child + g).representative;
+      sum += std::hypot(p.x - 20000.0, p.y - 20000.0, p.z) - kCapRadius;
+    }
+  }
+  return sum / count;
+}
+
+TEST(LloydTree, QuadricRepresentativesDoNotShrinkAConvexSurface) {
+  // Faces cut below the surface: corners on it, or inside as centres are, shrink the LOD.
+  EXPECT_GT(HeightAboveTheCap(Representative::kQuadric), 0);
+  EXPECT_LT(HeightAboveTheCap(Representative::kQuadric), 600);
+  EXPECT_LT(HeightAboveTheCap(Representative::kCentre), -200);
+}
+
+TEST(LloydTree, QuadricRepresentativesStayInTheBoxOfAllVertices) {
+  // Planes that meet far outside, and vertices without any.
+  Sheet cap = Cap();
+  const Sheet bare{cap.positions, {}};
+  for (const Sheet& sheet : {cap, bare}) {
+    const SetTree tree = TreeOf(sheet.positions, sheet.faces, CodecSettings());
+    const Int3 root = tree.node(0).representative;
+    EXPECT_TRUE(root.x >= 0 && root.x <= 40000 && root.y >= 0 && root.y <= 40000);
+    EXPECT_TRUE(root.z >= 0 && root.z <= 30000);
+  }
+}
+
+TEST(LloydTree, DistortionFallsFromSetsToTheirChildren) {
+  const Sheet cap = Cap();
+  const SetTree tree = TreeOf(cap.positions, cap.faces, CodecSettings());
+  const SetTree::Node& root = tree.node(0);
+  double children = 0;
+  for (uint32_t c = 0; c < root.child_count; ++c) {
+    children += tree.node(root.first_child + c).distortion;
+  }
+  EXPECT_GT(children, 0);
+  EXPECT_LT(children, root.distortion / 2);
 }
 
 }  // namespace

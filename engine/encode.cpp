@@ -4,6 +4,26 @@
 #include "engine/run_guarded.h"
 
 namespace folprom {
+namespace {
+
+BitCounts BitsOf(const CostMeters& costs) {
+  auto bits = [](uint64_t cost) { return static_cast<double>(cost) / 1024; };
+  BitCounts counts;
+  counts.split = bits(costs.split);
+  counts.root = bits(costs.root);
+  counts.theta = bits(costs.offsets.theta);
+  counts.rho = bits(costs.offsets.rho);
+  counts.z = bits(costs.offsets.z);
+  counts.refinement = bits(costs.refinement);
+  counts.connected = bits(costs.connectivity.connected);
+  counts.pivots = bits(costs.connectivity.pivots);
+  counts.sides = bits(costs.connectivity.sides);
+  counts.exceptions = bits(costs.exceptions);
+  counts.seams = bits(costs.seams);
+  return counts;
+}
+
+}  // namespace
 
 Result<EncodeReport> EncodeFile(const std::string& input, const std::string& output,
                                 const EncodeOptions& options, parallel::Runner& runner,
@@ -24,6 +44,7 @@ Result<EncodeReport> EncodeFile(const std::string& input, const std::string& out
     report.subtrees = table.subtrees.size();
     report.layers = table.layers.size();
     report.spill_bytes = job.spill().SizeBytes();
+    report.bits = BitsOf(job.costs());
     report.warnings = job.Warnings();
     return report;
   });

@@ -262,7 +262,7 @@ io::FileTable EncodeJob::MakeTable() {
   table.extent = resolution_.lattice.extent;
   table.tolerance = resolution_.tolerance;
   table.codec = WriteParameters(parameters_);
-  CostMeters costs;
+  costs_ = {};
   for (size_t s = 0; s < outcomes_.size(); ++s) {
     const Outcome& outcome = outcomes_[s];
     const SubtreeSummary& summary = scan_->summary(s);
@@ -274,15 +274,14 @@ io::FileTable EncodeJob::MakeTable() {
     table.subtrees.push_back(std::move(record));
     table.digest.vertices += outcome.digest.vertices;
     table.digest.faces += outcome.digest.faces;
-    costs.split += outcome.meters.split;
-    costs.offsets += outcome.meters.offsets;
-    costs.refinement += outcome.meters.refinement;
-    costs.connectivity += outcome.meters.connectivity;
-    costs.exceptions += outcome.meters.exceptions;
-    costs.seams += outcome.meters.seams;
+    costs_ += outcome.meters;
   }
-  table.kind_bits = {costs.split / 1024,        costs.offsets / 1024,    costs.refinement / 1024,
-                     costs.connectivity / 1024, costs.exceptions / 1024, costs.seams / 1024};
+  table.kind_bits = {costs_.split / 1024,
+                     (costs_.root + costs_.offsets.Sum()) / 1024,
+                     costs_.refinement / 1024,
+                     costs_.connectivity.Sum() / 1024,
+                     costs_.exceptions / 1024,
+                     costs_.seams / 1024};
   for (uint32_t layer : kept_layers_) {
     io::LayerRecord record;
     double distance = 0;

@@ -45,6 +45,10 @@ class EncodeJob {
   io::FileTable MakeTable();
   uint64_t WriteFile(const io::FileTable& table, io::AtomicFile& out);
 
+  /// After Partition; MakeTable drops the layers in which nothing was coded.
+  const CodecParameters& parameters() const { return parameters_; }
+  /// Of all subtrees and seams, after MakeTable.
+  const CostMeters& costs() const { return costs_; }
   const io::MeshSource& source() const { return *source_; }
   const PartitionedScan& scan() const { return *scan_; }
   const io::SpillDirectory& spill() const { return *spill_; }
@@ -75,6 +79,7 @@ class EncodeJob {
   CodecParameters parameters_;
   std::unique_ptr<PartitionedScan> scan_;
   std::vector<Outcome> outcomes_;
+  CostMeters costs_;
   std::vector<uint32_t> kept_layers_;
 };
 

@@ -60,6 +60,15 @@ EncodeConfig Settings(const EncodeFlags& flags) {
   return config;
 }
 
+Json BitsJson(const BitCounts& bits) {
+  return {{"split", bits.split},           {"root", bits.root},
+          {"theta", bits.theta},           {"rho", bits.rho},
+          {"z", bits.z},                   {"refinement", bits.refinement},
+          {"connected", bits.connected},   {"pivots", bits.pivots},
+          {"sides", bits.sides},           {"exceptions", bits.exceptions},
+          {"seams", bits.seams}};
+}
+
 void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double seconds) {
   const double bits_per_vertex =
       report.vertices == 0
@@ -76,6 +85,7 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
                {"subtrees", report.subtrees},
                {"layers", report.layers},
                {"spill_bytes", report.spill_bytes},
+               {"bits", BitsJson(report.bits)},
                {"warnings", report.warnings}});
   } else if (!flags.common.quiet) {
     Print(fmt::format("{}: {} vertices, {} faces in {} bytes, {:.2f} bits per vertex\n"

@@ -36,7 +36,8 @@ uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary) {
 }
 
 EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& summary,
-                             uint32_t subtree, const CodecParameters& parameters) {
+                             uint32_t subtree, const CodecParameters& parameters,
+                             const CostMeters& meters) {
   const Int3& extent = parameters.extent;
   double longest = std::max({extent.x, extent.y, extent.z});
   SetTree tree;
@@ -54,6 +55,7 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
   SubtreeCoder coder(parameters, shape);
   BitEncoder bits;
   EncodedSubtree result;
+  result.meters = meters;
   for (uint32_t layer = 0; layer < parameters.schedule.layers(); ++layer) {
     uint64_t before = bits.decisions();
     coder.CodeLayer(bits, &truth, &result.meters);

@@ -35,9 +35,11 @@ struct EncodedSubtree {
 /// Upper estimate of the memory that EncodeSubtree takes.
 uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary);
 
-/// Throws Failure kInternal when a decoded position would miss the tolerance.
+/// Throws Failure kInternal when a decoded position would miss the tolerance. `meters`: where to
+/// start counting, and into which tallies.
 EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& summary,
-                             uint32_t subtree, const CodecParameters& parameters);
+                             uint32_t subtree, const CodecParameters& parameters,
+                             const CostMeters& meters = {});
 
 /// Encodes the seam of an owner from complete records.
 struct EncodedSeam {

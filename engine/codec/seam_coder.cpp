@@ -71,8 +71,10 @@ void SeamCoder::ReplayEvent(Coder& coder, uint32_t participant, uint32_t index, 
       truth->BeginSplit(participant, index, vertex);
       oracle = truth->oracle();
     }
+    SplitMeters costs;
     uint32_t added =
-        split_coder_.Code(coder, complex_, positions_, vertex, known, oracle, meter, meter);
+        split_coder_.Code(coder, complex_, positions_, vertex, known, oracle, &costs, meter);
+    *meter += costs.Sum();
     CheckSize(complex_, mesh_faces_);
     positions_.push_back(event.second_position);
     name_.push_back({participants_[participant].subtree,

@@ -44,6 +44,21 @@ uint64_t SquaredDistance(const Int3& a, const Int3& b) {
 
 }  // namespace
 
+CostMeters& CostMeters::operator+=(const CostMeters& other) {
+  split += other.split;
+  root += other.root;
+  refinement += other.refinement;
+  exceptions += other.exceptions;
+  seams += other.seams;
+  offsets.theta += other.offsets.theta;
+  offsets.rho += other.offsets.rho;
+  offsets.z += other.offsets.z;
+  connectivity.connected += other.connectivity.connected;
+  connectivity.pivots += other.connectivity.pivots;
+  connectivity.sides += other.connectivity.sides;
+  return *this;
+}
+
 SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape& shape)
     : parameters_(parameters),
       shape_(shape),
@@ -60,7 +75,7 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
   if (meters == nullptr) meters = &unmetered;
   const LayerSchedule& schedule = parameters_.schedule;
   if (layer_ == 0) {
-    coder.SetMeter(&meters->offsets);
+    coder.SetMeter(&meters->root);
     CodeRoot(coder, truth);
   }
   if (layer_ < schedule.split_layers()) {
@@ -210,7 +225,6 @@ bool SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTr
 template <class Coder>
 void SubtreeCoder::CodeChildren(Coder& coder, uint32_t set, uint32_t count, SubtreeTruth* truth,
                                 CostMeters* meters) {
-  coder.SetMeter(&meters->offsets);
   ring_.clear();
   for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
     ring_.push_back(positions_[complex_.half_edge(h).target]);
@@ -234,7 +248,7 @@ void SubtreeCoder::CodeChildren(Coder& coder, uint32_t set, uint32_t count, Subt
     for (uint32_t i = 0; i < count; ++i) offsets_[i] = found[order_[i]];
     truth->BeginSplit(set, order_);
   }
-  offset_coder_.CodeOffsets(coder, at, steps, count, &offsets_);
+  offset_coder_.CodeOffsets(coder, at, steps, count, &offsets_, &meters->offsets);
   child_cells_.resize(count);
   child_positions_.resize(count);
   double reach = 0;

@@ -44,9 +44,13 @@ class SubtreeTruth {
   virtual FaceCensus CountFaces(const Complex& complex) const = 0;
 };
 
-/// Costs by kind in 1/1024 bit.
+/// Costs in 1/1024 bit. The six kinds in the table of a file are these, root and offsets together.
 struct CostMeters {
-  uint64_t split = 0, offsets = 0, refinement = 0, connectivity = 0, exceptions = 0, seams = 0;
+  uint64_t split = 0, root = 0, refinement = 0, exceptions = 0, seams = 0;
+  OffsetMeters offsets;
+  SplitMeters connectivity;
+
+  CostMeters& operator+=(const CostMeters& other);
 };
 
 /// What the table of the file says of a subtree.

@@ -133,7 +133,8 @@ void SplitCoder::SortPivotCandidates() {
 }
 
 template <class Coder>
-void SplitCoder::CodePivots(Coder& coder, SplitOracle* oracle) {
+void SplitCoder::CodePivots(Coder& coder, SplitOracle* oracle, SplitMeters* meters) {
+  coder.SetMeter(&meters->pivots);
   pivots_ = 0;
   uint32_t degree = DegreeBucket(order_.size());
   for (uint32_t rank = 0; rank < order_.size(); ++rank) {
@@ -159,6 +160,10 @@ void SplitCoder::CodePivots(Coder& coder, SplitOracle* oracle) {
     pivot = pivot_.Code(coder, {context0, context1, context2}, joined * 4 + found, pivot);
     neighbour.side = pivot ? kBoth : kFirst;
     if (pivot) ++pivots_;
+    if (meters->tally) {
+      const uint32_t size = AtMost(static_cast<uint32_t>(order_.size()), 15);
+      meters->tally->pivots.Add(pivot ? 1 : 0, size * 16 + AtMost(rank, 15));
+    }
   }
   for (auto& neighbour : star_.neighbours) {
     if (neighbour.side != kBoth) neighbour.side = kUndecided;
@@ -181,7 +186,8 @@ void SplitCoder::SpreadSide(uint32_t start, Side side) {
 }
 
 template <class Coder>
-void SplitCoder::CodeSides(Coder& coder, SplitOracle* oracle) {
+void SplitCoder::CodeSides(Coder& coder, SplitOracle* oracle, SplitMeters* meters) {
+  coder.SetMeter(&meters->sides);
   auto size_of_lean = [&](uint32_t i) {
     int32_t lean = star_.neighbours[i].lean;
     return lean < 0 ? -lean : lean;
@@ -208,6 +214,7 @@ void SplitCoder::CodeSides(Coder& coder, SplitOracle* oracle) {
       farther = oracle->NeighbourSide(neighbour.half_edge, neighbour.vertex) != nearer;
     }
     farther = side_.Code(coder, {context0, context1, context2}, AtMost(decided, 3), farther);
+    if (meters->tally) meters->tally->sides.Add(farther ? 1 : 0);
     last = farther ? (nearer == kFirst ? kSecond : kFirst) : nearer;
     SpreadSide(index, last);
     ++decided;
@@ -313,12 +320,12 @@ void SplitCoder::ApplySides(Complex& complex) {
 template <class Coder>
 uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3>& positions,
                           uint32_t vertex, const Known& known, SplitOracle* oracle,
-                          uint64_t* connectivity_meter, uint64_t* exception_meter) {
+                          SplitMeters* meters, uint64_t* exception_meter) {
   Gather(complex, vertex);
   Measure(positions, known);
   star_.second = complex.AddVertex();
   star_.child_edge = kNone;
-  coder.SetMeter(connectivity_meter);
+  coder.SetMeter(&meters->connected);
   star_.connected = known.connected;
   owns_child_edge_ = known.code_connected;
   if (known.code_connected) {
@@ -333,8 +340,8 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
   }
   SortPivotCandidates();
   if (known.all == kUndecided) {
-    CodePivots(coder, oracle);
-    CodeSides(coder, oracle);
+    CodePivots(coder, oracle, meters);
+    CodeSides(coder, oracle, meters);
   } else {
     pivots_ = 0;
     for (auto& neighbour : star_.neighbours) neighbour.side = known.all;
@@ -348,10 +355,10 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
 }
 
 template uint32_t SplitCoder::Code<BitEncoder>(BitEncoder&, Complex&, const std::vector<Int3>&,
-                                               uint32_t, const Known&, SplitOracle*, uint64_t*,
+                                               uint32_t, const Known&, SplitOracle*, SplitMeters*,
                                                uint64_t*);
 template uint32_t SplitCoder::Code<BitDecoder>(BitDecoder&, Complex&, const std::vector<Int3>&,
-                                               uint32_t, const Known&, SplitOracle*, uint64_t*,
+                                               uint32_t, const Known&, SplitOracle*, SplitMeters*,
                                                uint64_t*);
 
 }  // namespace folprom

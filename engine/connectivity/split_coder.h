@@ -13,6 +13,7 @@
 #include "engine/connectivity/split_oracle.h"
 #include "engine/connectivity/split_star.h"
 #include "engine/entropy/mixed_model.h"
+#include "engine/entropy/value_tally.h"
 #include "engine/mesh/types.h"
 
 namespace folprom {
@@ -21,6 +22,19 @@ namespace folprom {
 struct ConnectivitySettings {
   bool pivot_order = true;
   bool nearer_child = true;
+};
+
+/// Pivot flags (context: number of neighbours and place in the order, both at most 15) and side flags.
+struct SplitTally {
+  ValueTally pivots, sides;
+};
+
+/// Costs of connectivity in 1/1024 bit.
+struct SplitMeters {
+  uint64_t connected = 0, pivots = 0, sides = 0;
+  SplitTally* tally = nullptr;  ///< encoder only; not null: takes the flags
+
+  uint64_t Sum() const { return connected + pivots + sides; }
 };
 
 /// Learning state of the connectivity decisions, kept from layer to layer.
@@ -40,10 +54,10 @@ class SplitCoder {
 
   /// Codes and applies the split of `vertex` into itself and a new vertex, which is returned.
   /// `positions` is indexed by vertex and still holds the parent's position. The oracle (encoder
-  /// only) answers what is true. `meters` receive the cost of connectivity and of exceptions.
+  /// only) answers what is true. The meters receive the costs.
   template <class Coder>
   uint32_t Code(Coder& coder, Complex& complex, const std::vector<Int3>& positions, uint32_t vertex,
-                const Known& known, SplitOracle* oracle, uint64_t* connectivity_meter,
+                const Known& known, SplitOracle* oracle, SplitMeters* meters,
                 uint64_t* exception_meter);
 
   /// Were the children of the split coded last connected.
@@ -54,9 +68,9 @@ class SplitCoder {
   void Measure(const std::vector<Int3>& positions, const Known& known);
   void SortPivotCandidates();
   template <class Coder>
-  void CodePivots(Coder& coder, SplitOracle* oracle);
+  void CodePivots(Coder& coder, SplitOracle* oracle, SplitMeters* meters);
   template <class Coder>
-  void CodeSides(Coder& coder, SplitOracle* oracle);
+  void CodeSides(Coder& coder, SplitOracle* oracle, SplitMeters* meters);
   void SpreadSide(uint32_t start, Side side);
   template <class Coder>
   void CodeFaces(Coder& coder, SplitOracle* oracle);

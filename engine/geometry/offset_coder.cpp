@@ -121,53 +121,86 @@ uint32_t OffsetCoder::CodeChildCount(Coder& coder, const SetContext& context, ui
 }
 
 template <class Coder>
-void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const OffsetSteps& steps,
-                              uint32_t count, std::vector<OffsetIndex>* offsets) {
-  offsets->resize(count);
-  uint32_t steep = SteepnessBucket(at), hollow = HollowBucket(at, steps.z);
-  uint32_t rho_before = 0, z_before = 0;
-  uint32_t levels = settings_.levels;
+uint32_t OffsetCoder::CodeTheta(Coder& coder, const Siblings& siblings, uint32_t i,
+                                const std::vector<OffsetIndex>& offsets, OffsetMeters* meters) {
+  coder.SetMeter(&meters->theta);
+  const uint32_t levels = settings_.levels, index = offsets[i].theta;
+  const bool first = i == 0;
+  if (first || !settings_.predict_theta) {
+    if (meters->tally) meters->tally->theta.Add(index, first ? 0 : 1);
+    return first_theta_.CodeUnsigned(coder, {siblings.count, i}, index);
+  }
+  // The angles still to come are spread evenly over what is left of the turn.
+  int32_t before = static_cast<int32_t>(offsets[i - 1].theta);
+  int32_t left = static_cast<int32_t>(levels + offsets[0].theta) - before;
+  int32_t predicted = std::min(before + left / static_cast<int32_t>(siblings.count - i + 1),
+                               static_cast<int32_t>(levels) - 1);
+  int32_t residual = static_cast<int32_t>(index) - predicted;
+  if (meters->tally) meters->tally->theta.Add(residual, 1);
+  residual = theta_.CodeSigned(
+      coder,
+      {Place(siblings.count, i), SizeBucket(siblings.rho_before) * settings_.children + i},
+      residual);
+  return static_cast<uint32_t>(
+      std::clamp<int64_t>(int64_t{predicted} + residual, 0, static_cast<int64_t>(levels) - 1));
+}
+
+template <class Coder>
+uint32_t OffsetCoder::CodeRho(Coder& coder, const Siblings& siblings, uint32_t i, double expected,
+                              uint32_t index, OffsetMeters* meters) {
+  coder.SetMeter(&meters->rho);
+  if (meters->tally) meters->tally->rho.Add(index);
+  uint32_t reach = ReachBucket(expected / siblings.steps.rho);
+  return rho_.CodeUnsigned(coder,
+                           {Place(siblings.count, i) * kReachBuckets + reach,
+                            SizeBucket(siblings.rho_before) * 6 + siblings.steep},
+                           index);
+}
+
+template <class Coder>
+int32_t OffsetCoder::CodeHeight(Coder& coder, Siblings& siblings, uint32_t i, double rho,
+                                double bend, int32_t index, OffsetMeters* meters) {
+  coder.SetMeter(&meters->z);
+  const double step = siblings.steps.z;
+  // On a surface bent as the neighbours say the height grows with the square of the distance.
+  // It is kept to the heights seen: beside a neighbour on the axis the bend has no bound.
   // Without the prediction heights count from the lowest neighbour instead of the parent.
-  int32_t base = settings_.predict_height ? 0 : RoundToInt(at.min_z / steps.z);
+  double highest = siblings.at.range_z / step;
+  int32_t predicted = settings_.predict_height
+                          ? RoundToInt(std::clamp(bend * rho * rho / step, -highest, highest))
+                          : RoundToInt(siblings.at.min_z / step);
+  uint32_t bucket = std::min(
+      SizeBucket(static_cast<uint64_t>(predicted < 0 ? -int64_t{predicted} : predicted)), 4u);
+  int32_t residual = RoundToInt(static_cast<double>(index) - predicted);
+  if (meters->tally) meters->tally->z.Add(residual);
+  residual = z_.CodeSigned(
+      coder,
+      {((siblings.hollow * 5 + bucket) * 2 + (i > 0 ? 1 : 0)) * settings_.children + i,
+       SizeBucket(siblings.z_before) * 6 + siblings.steep},
+      residual);
+  siblings.z_before = static_cast<uint32_t>(residual < 0 ? -residual : residual);
+  return RoundToInt(static_cast<double>(residual) + predicted);
+}
+
+template <class Coder>
+void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const OffsetSteps& steps,
+                              uint32_t count, std::vector<OffsetIndex>* offsets,
+                              OffsetMeters* meters) {
+  offsets->resize(count);
+  Siblings siblings{at, steps, count, SteepnessBucket(at), HollowBucket(at, steps.z)};
   for (uint32_t i = 0; i < count; ++i) {
     OffsetIndex& index = (*offsets)[i];
-    uint32_t place = Place(count, i);
-    if (i == 0 || !settings_.predict_theta) {
-      index.theta = first_theta_.CodeUnsigned(coder, {count, i}, index.theta);
-    } else {
-      // The angles still to come are spread evenly over what is left of the turn.
-      int32_t before = static_cast<int32_t>((*offsets)[i - 1].theta);
-      int32_t left = static_cast<int32_t>(levels + (*offsets)[0].theta) - before;
-      int32_t predicted = std::min(before + left / static_cast<int32_t>(count - i + 1),
-                                   static_cast<int32_t>(levels) - 1);
-      int32_t residual = theta_.CodeSigned(
-          coder, {place, SizeBucket(rho_before) * settings_.children + i},
-          static_cast<int32_t>(index.theta) - predicted);
-      index.theta = static_cast<uint32_t>(std::clamp<int64_t>(
-          int64_t{predicted} + residual, 0, static_cast<int64_t>(levels) - 1));
+    index.theta = CodeTheta(coder, siblings, i, *offsets, meters);
+    if (index.theta >= settings_.levels) {
+      throw Failure(ErrorKind::kCorrupt, "coded angle out of range");
     }
-    if (index.theta >= levels) throw Failure(ErrorKind::kCorrupt, "coded angle out of range");
     double sine, cosine;
     SinCos(index.theta * steps.theta, &sine, &cosine);
     Neighbourhood::Outlook outlook = at.Towards(cosine, sine);
-    uint32_t reach = ReachBucket(outlook.rho / steps.rho);
-    index.rho = rho_.CodeUnsigned(
-        coder, {place * kReachBuckets + reach, SizeBucket(rho_before) * 6 + steep}, index.rho);
-    rho_before = index.rho;
-    // On a surface bent as the neighbours say the height grows with the square of the distance.
-    double rho = (index.rho + 0.5) * steps.rho;
-    // It is kept to the heights seen: beside a neighbour on the axis the bend has no bound.
-    double highest = at.range_z / steps.z;
-    int32_t bent = settings_.predict_height
-                       ? RoundToInt(std::clamp(outlook.bend * rho * rho / steps.z, -highest, highest))
-                       : base;
-    uint32_t bend = std::min(SizeBucket(static_cast<uint64_t>(bent < 0 ? -int64_t{bent} : bent)), 4u);
-    int32_t height = z_.CodeSigned(
-        coder, {((hollow * 5 + bend) * 2 + (i > 0 ? 1 : 0)) * settings_.children + i,
-                SizeBucket(z_before) * 6 + steep},
-        RoundToInt(static_cast<double>(index.z) - bent));
-    index.z = RoundToInt(static_cast<double>(height) + bent);
-    z_before = static_cast<uint32_t>(height < 0 ? -height : height);
+    index.rho = CodeRho(coder, siblings, i, outlook.rho, index.rho, meters);
+    siblings.rho_before = index.rho;
+    index.z = CodeHeight(coder, siblings, i, (index.rho + 0.5) * steps.rho, outlook.bend, index.z,
+                         meters);
   }
 }
 
@@ -183,7 +216,8 @@ bool OffsetCoder::CodeHalf(Coder& coder, const CylinderCell& cell, CylinderCell:
 #define FOLPROM_INSTANTIATE(Coder)                                                                \
   template uint32_t OffsetCoder::CodeChildCount<Coder>(Coder&, const SetContext&, uint32_t);      \
   template void OffsetCoder::CodeOffsets<Coder>(Coder&, const Neighbourhood&, const OffsetSteps&, \
-                                                uint32_t, std::vector<OffsetIndex>*);             \
+                                                uint32_t, std::vector<OffsetIndex>*,              \
+                                                OffsetMeters*);                                   \
   template bool OffsetCoder::CodeHalf<Coder>(Coder&, const CylinderCell&,                         \
                                              CylinderCell::Dimension, bool);
 FOLPROM_INSTANTIATE(BitEncoder)

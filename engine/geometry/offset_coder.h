@@ -7,6 +7,7 @@
 
 #include "engine/entropy/integer_model.h"
 #include "engine/entropy/mixed_model.h"
+#include "engine/entropy/value_tally.h"
 #include "engine/geometry/cylinder_cell.h"
 #include "engine/geometry/local_frame.h"
 
@@ -33,6 +34,19 @@ struct OffsetSteps {
   double rho = 1, theta = 1, z = 1;
 };
 
+/// The numbers that are coded for offsets: what is left after prediction.
+struct OffsetTally {
+  ValueTally theta, rho, z;
+};
+
+/// Costs of offsets in 1/1024 bit.
+struct OffsetMeters {
+  uint64_t theta = 0, rho = 0, z = 0;
+  OffsetTally* tally = nullptr;  ///< encoder only; not null: takes the numbers
+
+  uint64_t Sum() const { return theta + rho + z; }
+};
+
 /// Learning state of the geometry decisions, kept from layer to layer.
 class OffsetCoder {
  public:
@@ -54,10 +68,11 @@ class OffsetCoder {
   template <class Coder>
   uint32_t CodeChildCount(Coder& coder, const SetContext& context, uint32_t count);
 
-  /// Offsets in the lexicographic order of (theta, rho, z); resized to `count`.
+  /// Offsets in the lexicographic order of (theta, rho, z); resized to `count`. `meters` receive the
+  /// costs.
   template <class Coder>
   void CodeOffsets(Coder& coder, const Neighbourhood& at, const OffsetSteps& steps, uint32_t count,
-                   std::vector<OffsetIndex>* offsets);
+                   std::vector<OffsetIndex>* offsets, OffsetMeters* meters);
 
   /// Which half of the cell holds the vertex.
   template <class Coder>
@@ -65,6 +80,25 @@ class OffsetCoder {
                 bool upper);
 
  private:
+  /// What both sides know while the children of one set are coded.
+  struct Siblings {
+    const Neighbourhood& at;
+    const OffsetSteps& steps;
+    uint32_t count, steep, hollow;
+    uint32_t rho_before = 0, z_before = 0;
+  };
+  /// theta of child `i`: offsets before it are known.
+  template <class Coder>
+  uint32_t CodeTheta(Coder& coder, const Siblings& siblings, uint32_t i,
+                     const std::vector<OffsetIndex>& offsets, OffsetMeters* meters);
+  template <class Coder>
+  uint32_t CodeRho(Coder& coder, const Siblings& siblings, uint32_t i, double expected,
+                   uint32_t index, OffsetMeters* meters);
+  /// Height of child `i`, `rho` lattice units from the axis, where the surface has `bend`.
+  template <class Coder>
+  int32_t CodeHeight(Coder& coder, Siblings& siblings, uint32_t i, double rho, double bend,
+                     int32_t index, OffsetMeters* meters);
+
   OffsetSettings settings_;
   MixedModel<2> is_leaf_;
   MixedModel<2> is_full_;

@@ -25,10 +25,17 @@ void ExpectKeys(const nlohmann::json& object, const std::vector<std::string>& ke
 TEST_F(Report, EncodeAsJson) {
   const auto report = encoded_.json();
   ExpectKeys(report, {"vertices", "faces", "bytes", "bits_per_vertex", "seconds", "peak_rss_bytes",
-                      "subtrees", "layers", "spill_bytes", "warnings", "output"});
+                      "subtrees", "layers", "spill_bytes", "bits", "warnings", "output"});
   EXPECT_EQ(report.at("vertices"), 3000);
   EXPECT_EQ(report.at("bytes"), std::filesystem::file_size(Path("s.folp")));
   EXPECT_DOUBLE_EQ(report.at("bits_per_vertex"), report.at("bytes").get<double>() * 8 / 3000);
+  const auto& bits = report.at("bits");
+  ExpectKeys(bits, {"split", "root", "theta", "rho", "z", "refinement", "connected", "pivots",
+                    "sides", "exceptions", "seams"});
+  double sum = 0;
+  for (const auto& kind : bits) sum += kind.get<double>();
+  EXPECT_GT(sum, 0.9 * 8 * report.at("bytes").get<double>());
+  EXPECT_LT(sum, 8 * report.at("bytes").get<double>());
   EXPECT_GE(report.at("subtrees"), 1);
   EXPECT_GE(report.at("layers"), 1);
   EXPECT_EQ(encoded_.err, "");

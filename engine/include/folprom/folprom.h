@@ -16,6 +16,15 @@ class Progress;
 
 namespace folprom {
 
+/// What a file's bits were spent on, by what they tell. The kinds of FileInfo are sums of these.
+struct BitCounts {
+  double split = 0;                           ///< how many children
+  double root = 0, theta = 0, rho = 0, z = 0; ///< where they lie
+  double refinement = 0;
+  double connected = 0, pivots = 0, sides = 0;  ///< connectivity inside subtrees
+  double exceptions = 0, seams = 0;
+};
+
 /// Outcome of EncodeFile. Warnings are sentences for the user (polygons triangulated, properties
 /// not coded, ...).
 struct EncodeReport {
@@ -25,6 +34,7 @@ struct EncodeReport {
   uint64_t subtrees = 0;
   uint64_t layers = 0;
   uint64_t spill_bytes = 0;  ///< temporary disk used at the peak
+  BitCounts bits;            ///< over the whole file, without rounding to bytes
   std::vector<std::string> warnings;
 };
 

@@ -114,7 +114,8 @@ Recording Record(const Mesh& mesh, const ConnectivitySettings& settings, uint64_
   SplitOracle oracle(count, mesh.triples);
   SplitCoder coder(settings);
   BitEncoder bits;
-  uint64_t meters[2] = {0, 0};
+  SplitMeters meters;
+  uint64_t exceptions = 0;
   std::vector<uint32_t> set_of(count, 0);
   std::vector<Int3> positions{mesh.positions[0]};
   r.complex.AddVertex();
@@ -139,7 +140,7 @@ Recording Record(const Mesh& mesh, const ConnectivitySettings& settings, uint64_
     known.first = mesh.positions[set[0]];
     known.second = mesh.positions[second[0]];
     const uint32_t added =
-        coder.Code(bits, r.complex, positions, vertex, known, &oracle, &meters[0], &meters[1]);
+        coder.Code(bits, r.complex, positions, vertex, known, &oracle, &meters, &exceptions);
     EXPECT_EQ(added, r.complex.vertex_count() - 1);
     r.splits.push_back({vertex, known});
     positions[vertex] = known.first;
@@ -167,10 +168,11 @@ Complex Replay(const Recording& r, const ConnectivitySettings& settings) {
   complex.AddVertex();
   std::vector<Int3> positions{{}};
   // The root's own position is in no context: it has no neighbours.
-  uint64_t meters[2] = {0, 0};
+  SplitMeters meters;
+  uint64_t exceptions = 0;
   for (const auto& split : r.splits) {
-    coder.Code(bits, complex, positions, split.vertex, split.known, nullptr, &meters[0],
-               &meters[1]);
+    coder.Code(bits, complex, positions, split.vertex, split.known, nullptr, &meters,
+               &exceptions);
     positions[split.vertex] = split.known.first;
     positions.push_back(split.known.second);
   }
@@ -233,7 +235,8 @@ TEST(SplitCoder, RandomBytesGiveAComplexOrAnError) {
     Complex complex;
     complex.AddVertex();
     std::vector<Int3> positions{{}};
-    uint64_t meters[2] = {0, 0};
+    SplitMeters meters;
+    uint64_t exceptions = 0;
     try {
       for (int split = 0; split < 40; ++split) {
         auto draw = [&] { return static_cast<int32_t>(random() % 50); };
@@ -241,7 +244,7 @@ TEST(SplitCoder, RandomBytesGiveAComplexOrAnError) {
         known.first = {draw(), draw(), draw()};
         known.second = {draw(), draw(), draw()};
         const uint32_t vertex = static_cast<uint32_t>(random() % positions.size());
-        coder.Code(bits, complex, positions, vertex, known, nullptr, &meters[0], &meters[1]);
+        coder.Code(bits, complex, positions, vertex, known, nullptr, &meters, &exceptions);
         positions[vertex] = known.first;
         positions.push_back(known.second);
         // No edge twice, no face with a corner twice, every face on edges that exist.

@@ -119,13 +119,14 @@ TEST(OffsetCoder, GivesBackCountsAndOffsets) {
   for (const OffsetSettings& settings : AllSettings()) {
     const std::vector<Split> splits = RandomSplits(settings, settings.levels + settings.children);
     OffsetCoder written(settings), read(settings);
+    OffsetMeters meters;
     BitEncoder encoder;
     for (const Split& split : splits) {
       ASSERT_EQ(written.CodeChildCount(encoder, split.context, split.count), split.count);
       if (split.count == 1) continue;
       const OffsetSteps steps = written.StepsFor(split.at, kLeast);
       std::vector<OffsetIndex> offsets = split.offsets;
-      written.CodeOffsets(encoder, split.at, steps, split.count, &offsets);
+      written.CodeOffsets(encoder, split.at, steps, split.count, &offsets, &meters);
     }
     const auto bytes = encoder.TakeSegment();
     BitDecoder decoder;
@@ -134,7 +135,8 @@ TEST(OffsetCoder, GivesBackCountsAndOffsets) {
     for (const Split& split : splits) {
       ASSERT_EQ(read.CodeChildCount(decoder, split.context, 0), split.count);
       if (split.count == 1) continue;
-      read.CodeOffsets(decoder, split.at, read.StepsFor(split.at, kLeast), split.count, &offsets);
+      const OffsetSteps steps = read.StepsFor(split.at, kLeast);
+      read.CodeOffsets(decoder, split.at, steps, split.count, &offsets, &meters);
       ASSERT_EQ(offsets.size(), split.count);
       for (uint32_t c = 0; c < split.count; ++c) {
         ASSERT_EQ(offsets[c].theta, split.offsets[c].theta);
@@ -143,6 +145,31 @@ TEST(OffsetCoder, GivesBackCountsAndOffsets) {
       }
     }
   }
+}
+
+TEST(OffsetCoder, MetersAddUpToTheBitsAndTalliesTakeEachValueOnce) {
+  const OffsetSettings settings;
+  OffsetCoder coder(settings);
+  OffsetTally tally;
+  OffsetMeters meters;
+  meters.tally = &tally;
+  BitEncoder encoder;
+  uint64_t children = 0;
+  for (const Split& split : RandomSplits(settings, 5)) {
+    if (split.count == 1) continue;
+    std::vector<OffsetIndex> offsets = split.offsets;
+    coder.CodeOffsets(encoder, split.at, coder.StepsFor(split.at, kLeast), split.count, &offsets,
+                      &meters);
+    children += split.count;
+  }
+  EXPECT_GT(meters.theta, 0u);
+  EXPECT_GT(meters.rho, 0u);
+  EXPECT_GT(meters.z, 0u);
+  const double bits = static_cast<double>(meters.Sum()) / 1024;
+  EXPECT_NEAR(bits, 8 * static_cast<double>(encoder.TakeSegment().size()), 0.01 * bits);
+  EXPECT_EQ(tally.theta.values(), children);
+  EXPECT_EQ(tally.rho.values(), children);
+  EXPECT_EQ(tally.z.values(), children);
 }
 
 TEST(OffsetCoder, GivesBackHeightsBesideANeighbourOnTheAxis) {
@@ -158,17 +185,18 @@ TEST(OffsetCoder, GivesBackHeightsBesideANeighbourOnTheAxis) {
       for (int32_t z : {0, 1, -1, 37, -37, 1000000, -1000000})
         all.push_back({{3, 8, z}, {9, 2, -z}});
       OffsetCoder written({}), read({});
+      OffsetMeters meters;
       BitEncoder encoder;
       const OffsetSteps steps = written.StepsFor(at, kLeast);
       for (std::vector<OffsetIndex> offsets : all) {
-        written.CodeOffsets(encoder, at, steps, 2, &offsets);
+        written.CodeOffsets(encoder, at, steps, 2, &offsets, &meters);
       }
       const auto bytes = encoder.TakeSegment();
       BitDecoder decoder;
       decoder.StartSegment(bytes);
       std::vector<OffsetIndex> offsets;
       for (const auto& expected : all) {
-        read.CodeOffsets(decoder, at, steps, 2, &offsets);
+        read.CodeOffsets(decoder, at, steps, 2, &offsets, &meters);
         EXPECT_EQ(offsets[0].z, expected[0].z) << reach << " " << bend;
         EXPECT_EQ(offsets[1].z, expected[1].z) << reach << " " << bend;
       }
@@ -206,6 +234,7 @@ TEST(OffsetCoder, RandomBytesGiveIndicesInRangeOrAnError) {
     const auto all = AllSettings();
     const OffsetSettings& settings = all[random() % all.size()];
     OffsetCoder coder(settings);
+    OffsetMeters meters;
     std::vector<uint8_t> bytes(random() % 60);
     for (auto& byte : bytes) byte = static_cast<uint8_t>(random());
     BitDecoder decoder;
@@ -219,7 +248,7 @@ TEST(OffsetCoder, RandomBytesGiveIndicesInRangeOrAnError) {
         ASSERT_GE(count, 1u);
         ASSERT_LE(count, settings.children);
         if (count == 1) continue;
-        coder.CodeOffsets(decoder, at, steps, count, &offsets);
+        coder.CodeOffsets(decoder, at, steps, count, &offsets, &meters);
         for (const OffsetIndex& index : offsets) {
           ASSERT_LT(index.theta, settings.levels);
           const Int3 extent{(1 << 30) - 1, 1000, 0};

@@ -9,7 +9,7 @@ namespace folprom {
 namespace {
 
 constexpr std::string_view kHierarchies[] = {"lloyd"};
-constexpr std::string_view kOffsets[] = {"cylindrical"};
+constexpr std::string_view kOffsets[] = {"cylindrical", "cartesian"};
 constexpr std::string_view kRepresentatives[] = {"curvature", "centre", "quadric"};
 
 using S = CodecSettings;
@@ -18,8 +18,8 @@ constexpr SettingKey kKeys[] = {
     {"hierarchy", &S::hierarchy, "how vertex sets are made: lloyd, top-down split (section 2.1)",
      "", 0, 0, kHierarchies},
     {"offsets", &S::offsets,
-     "how children are placed: cylindrical, in the least-squares frame (section 2.2)", "", 0, 0,
-     kOffsets},
+     "how children are placed in the least-squares frame (section 2.2): rho, theta, z or x, y, z",
+     "", 0, 0, kOffsets},
     {"subtree_vertices", &S::subtree_vertices,
      "largest subtree: unit of parallel work, memory and random access", "vertices", 1, 16777216},
     {"subtree_normals", &S::subtree_normals,

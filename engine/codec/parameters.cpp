@@ -81,7 +81,8 @@ uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layer
 
 OffsetSettings CodecParameters::offsets() const {
   return {settings.children, settings.quantisation_levels, settings.adaptive_quantisation,
-          settings.predict_theta, settings.predict_height};
+          settings.predict_theta, settings.predict_height,
+          settings.offsets == Offsets::kCartesian};
 }
 
 ConnectivitySettings CodecParameters::connectivity() const {

@@ -1,4 +1,5 @@
-// A cell of cylindrical coordinates: where a vertex must lie, and its halving (section 2.4).
+// A cell of cylindrical (or Cartesian) coordinates: where a vertex must lie, and its halving
+// (section 2.4).
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,7 @@
 
 namespace folprom {
 
-/// Point in a local frame. theta in [0, 2 pi).
+/// Point in a local frame. theta in [0, 2 pi). In a Cartesian frame rho is x and theta is y.
 struct CylinderPoint {
   double rho = 0;
   double theta = 0;
@@ -20,6 +21,7 @@ struct CylinderPoint {
 inline CylinderPoint ToCylinder(const LocalFrame& frame, const Int3& point) {
   Vector3 d = Difference(point, frame.origin);
   double u = Dot(d, frame.x), v = Dot(d, frame.y()), w = Dot(d, frame.z);
+  if (frame.cartesian) return {u, v, w};
   return {std::sqrt(u * u + v * v), Angle(u, v), w};
 }
 
@@ -31,9 +33,13 @@ struct CylinderCell {
 
   /// Centre on the working lattice, clamped to [0, extent].
   Int3 Position(const Int3& extent) const {
-    double sine, cosine;
-    SinCos(centre.theta, &sine, &cosine);
-    double u = centre.rho * cosine, v = centre.rho * sine;
+    double u = centre.rho, v = centre.theta;
+    if (!frame.cartesian) {
+      double sine, cosine;
+      SinCos(centre.theta, &sine, &cosine);
+      u = centre.rho * cosine;
+      v = centre.rho * sine;
+    }
     Vector3 y = frame.y();
     auto round = [&](int32_t origin, size_t axis, int32_t limit) {
       double value = static_cast<double>(origin) + u * frame.x[axis] + v * y[axis] +
@@ -48,6 +54,7 @@ struct CylinderCell {
 
   /// Half widths as lengths: radial (with the sagitta of the arc), along the arc, along the axis.
   Vector3 HalfLengths() const {
+    if (frame.cartesian) return {width.rho / 2, width.theta / 2, width.z / 2};
     double reach = centre.rho + width.rho / 2;
     return {width.rho / 2 + reach * width.theta * width.theta / 8, reach * width.theta / 2,
             width.z / 2};
@@ -55,8 +62,8 @@ struct CylinderCell {
 
   /// Bound on the distance from the centre per axis, the largest of the three axes.
   double AxisBound() const {
-    double sine, cosine;
-    SinCos(centre.theta, &sine, &cosine);
+    double sine = 0, cosine = 1;
+    if (!frame.cartesian) SinCos(centre.theta, &sine, &cosine);
     Vector3 y = frame.y(), half = HalfLengths();
     double bound = 0;
     for (size_t i = 0; i < 3; ++i) {
@@ -82,6 +89,7 @@ struct CylinderCell {
       default: break;
     }
     double turn = point.theta - centre.theta;
+    if (frame.cartesian) return turn >= 0;
     if (turn > kPi) turn = turn - 2 * kPi;
     if (turn < -kPi) turn = turn + 2 * kPi;
     return turn >= 0;

@@ -23,9 +23,10 @@ inline Vector3 Difference(const Int3& a, const Int3& b) {
           static_cast<double>(a.z) - b.z};
 }
 
-/// Unit axes around an origin. y is z cross x.
+/// Unit axes around an origin, and how points are told in it. y is z cross x.
 struct LocalFrame {
   Int3 origin;
+  bool cartesian = false;  ///< points are (x, y, z) instead of (rho, theta, z)
   Vector3 x{1, 0, 0};
   Vector3 z{0, 0, 1};
   Vector3 y() const { return Cross(z, x); }

@@ -1,6 +1,7 @@
 #include "engine/geometry/offset_coder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/entropy/bit_coder.h"
@@ -47,12 +48,29 @@ uint32_t ReachBucket(double steps) {
   return static_cast<uint32_t>(std::clamp(bucket, 0, static_cast<int>(kReachBuckets) - 1));
 }
 
+/// A signed index as OffsetIndex holds it, and back.
+constexpr uint32_t kZero = uint32_t{1} << 31;
+uint32_t Raised(int32_t value) { return static_cast<uint32_t>(value) + kZero; }
+int32_t Lowered(uint32_t value) { return static_cast<int32_t>(value - kZero); }
+
+/// Size and sign: 0 .. 2 * kSizeBuckets - 2.
+constexpr uint32_t kSignedBuckets = 2 * kSizeBuckets - 1;
+uint32_t SignedBucket(int32_t value) {
+  if (value >= 0) return SizeBucket(static_cast<uint64_t>(value));
+  return kSizeBuckets - 1 + SizeBucket(static_cast<uint64_t>(-int64_t{value}));
+}
+
 /// Nearest integer of a value that may be anything, kept where 30 bits hold it.
 int32_t RoundToInt(double value) {
   double rounded = std::floor(value + 0.5);
   constexpr double kLimit = 1 << 30;
   if (!(rounded > -kLimit)) return -(1 << 30);
   return rounded < kLimit ? static_cast<int32_t>(rounded) : 1 << 30;
+}
+
+/// Contexts of a model that is needed only where `used`.
+std::array<uint32_t, 2> Where(bool used, std::array<uint32_t, 2> contexts) {
+  return used ? contexts : std::array<uint32_t, 2>{0, 0};
 }
 
 }  // namespace
@@ -62,9 +80,15 @@ OffsetCoder::OffsetCoder(const OffsetSettings& settings)
       is_leaf_({kSpacingBuckets, 4 * 4 * 16}),
       is_full_({kSpacingBuckets, 4 * 4}),
       fewer_({kMostChildren}),
-      first_theta_({settings.children + 1, settings.children}),
-      theta_({Places(settings.children), kSizeBuckets * settings.children}),
-      rho_({Places(settings.children) * kReachBuckets, kSizeBuckets * 6}),
+      first_theta_(Where(!settings.cartesian, {settings.children + 1, settings.children})),
+      theta_(Where(!settings.cartesian,
+                   {Places(settings.children), kSizeBuckets * settings.children})),
+      rho_(Where(!settings.cartesian,
+                 {Places(settings.children) * kReachBuckets, kSizeBuckets * 6})),
+      x_(Where(settings.cartesian,
+               {Places(settings.children) * kSignedBuckets, kSignedBuckets * 6})),
+      y_(Where(settings.cartesian, {Places(settings.children) * kSignedBuckets,
+                                    kSignedBuckets * kSignedBuckets})),
       z_({7 * 5 * 2 * settings.children, kSizeBuckets * 6}),
       half_({3 * 16}) {}
 
@@ -72,21 +96,30 @@ OffsetSteps OffsetCoder::StepsFor(const Neighbourhood& at, double least) const {
   double levels = settings_.levels;
   OffsetSteps steps;
   steps.theta = 2 * kPi / levels;
-  double rho = at.range_rho / levels, z = at.range_z / levels;
+  // x and y reach as far to both sides.
+  double rho = at.range_rho * (settings_.cartesian ? 2 : 1) / levels, z = at.range_z / levels;
   if (!settings_.adaptive) rho = z = std::max(rho, z);
   steps.rho = std::max(rho, least);
   steps.z = std::max(z, least);
+  if (settings_.cartesian) steps.theta = steps.rho;
   return steps;
 }
 
 OffsetIndex OffsetCoder::Quantise(const Neighbourhood& at, const OffsetSteps& steps,
                                   const Int3& point) const {
-  CylinderPoint local = ToCylinder(at.frame, point);
+  LocalFrame frame = at.frame;
+  frame.cartesian = settings_.cartesian;
+  CylinderPoint local = ToCylinder(frame, point);
   OffsetIndex index;
+  index.z = RoundToInt(local.z / steps.z);
+  if (settings_.cartesian) {
+    index.theta = Raised(RoundToInt(local.rho / steps.rho));
+    index.rho = Raised(RoundToInt(local.theta / steps.theta));
+    return index;
+  }
   uint32_t theta = static_cast<uint32_t>(RoundToInt(local.theta / steps.theta));
   index.theta = theta >= settings_.levels ? 0 : theta;
   index.rho = static_cast<uint32_t>(RoundToInt(std::floor(local.rho / steps.rho)));
-  index.z = RoundToInt(local.z / steps.z);
   return index;
 }
 
@@ -94,10 +127,16 @@ CylinderCell OffsetCoder::CellOf(const Neighbourhood& at, const OffsetSteps& ste
                                  const OffsetIndex& index) const {
   CylinderCell cell;
   cell.frame = at.frame;
+  cell.frame.cartesian = settings_.cartesian;
+  cell.width = {steps.rho, steps.theta, steps.z};
+  if (settings_.cartesian) {
+    cell.centre = {Lowered(index.theta) * steps.rho, Lowered(index.rho) * steps.theta,
+                   static_cast<double>(index.z) * steps.z};
+    return cell;
+  }
   cell.centre = {(static_cast<double>(index.rho) + 0.5) * steps.rho,
                  static_cast<double>(index.theta) * steps.theta,
                  static_cast<double>(index.z) * steps.z};
-  cell.width = {steps.rho, steps.theta, steps.z};
   return cell;
 }
 
@@ -158,6 +197,28 @@ uint32_t OffsetCoder::CodeRho(Coder& coder, const Siblings& siblings, uint32_t i
 }
 
 template <class Coder>
+OffsetIndex OffsetCoder::CodePlane(Coder& coder, const Siblings& siblings, uint32_t i,
+                                   const std::vector<OffsetIndex>& offsets, OffsetMeters* meters) {
+  OffsetIndex index = offsets[i];
+  int32_t x = Lowered(index.theta), y = Lowered(index.rho);
+  const uint32_t place = Place(siblings.count, i) * kSignedBuckets;
+  const uint32_t x_before = i > 0 ? SignedBucket(Lowered(offsets[i - 1].theta)) : 0;
+  const uint32_t y_before = i > 0 ? SignedBucket(Lowered(offsets[i - 1].rho)) : 0;
+  if (meters->tally) {
+    meters->tally->theta.Add(x, i == 0 ? 0 : 1);
+    meters->tally->rho.Add(y);
+  }
+  coder.SetMeter(&meters->theta);
+  x = x_.CodeSigned(coder, {place + x_before, y_before * 6 + siblings.steep}, x);
+  coder.SetMeter(&meters->rho);
+  const uint32_t x_bucket = SignedBucket(x);
+  y = y_.CodeSigned(coder, {place + x_bucket, y_before * kSignedBuckets + x_bucket}, y);
+  index.theta = Raised(x);
+  index.rho = Raised(y);
+  return index;
+}
+
+template <class Coder>
 int32_t OffsetCoder::CodeHeight(Coder& coder, Siblings& siblings, uint32_t i, double rho,
                                 double bend, int32_t index, OffsetMeters* meters) {
   coder.SetMeter(&meters->z);
@@ -190,6 +251,14 @@ void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const Offse
   Siblings siblings{at, steps, count, SteepnessBucket(at), HollowBucket(at, steps.z)};
   for (uint32_t i = 0; i < count; ++i) {
     OffsetIndex& index = (*offsets)[i];
+    if (settings_.cartesian) {
+      index = CodePlane(coder, siblings, i, *offsets, meters);
+      const double x = Lowered(index.theta) * steps.rho, y = Lowered(index.rho) * steps.theta;
+      const double rho = std::sqrt(x * x + y * y);
+      const double bend = rho > 0 ? at.Towards(x / rho, y / rho).bend : 0;
+      index.z = CodeHeight(coder, siblings, i, rho, bend, index.z, meters);
+      continue;
+    }
     index.theta = CodeTheta(coder, siblings, i, *offsets, meters);
     if (index.theta >= settings_.levels) {
       throw Failure(ErrorKind::kCorrupt, "coded angle out of range");
@@ -208,7 +277,8 @@ template <class Coder>
 bool OffsetCoder::CodeHalf(Coder& coder, const CylinderCell& cell, CylinderCell::Dimension dimension,
                            bool upper) {
   // Near the axis the outer half of a ring is larger: how many widths out is worth a context.
-  double rings = cell.width.rho > 0 ? cell.centre.rho / cell.width.rho : 0;
+  bool curved = !cell.frame.cartesian && cell.width.rho > 0;
+  double rings = curved ? cell.centre.rho / cell.width.rho : 0;
   uint32_t ring = static_cast<uint32_t>(std::min(rings, 15.0));
   return half_.Code(coder, {static_cast<uint32_t>(dimension) * 16 + ring}, 0, upper);
 }

@@ -20,21 +20,24 @@ struct OffsetSettings {
   bool adaptive = true;
   bool predict_theta = true;
   bool predict_height = true;
+  bool cartesian = false;  ///< x, y instead of rho, theta
 };
 
-/// Offset of one child in steps of its dimension.
+/// Offset of one child in steps of its dimension. Cartesian: theta and rho hold x and y plus 2^31, so
+/// that they sort as x and y do.
 struct OffsetIndex {
   uint32_t theta = 0;  ///< below Q
   uint32_t rho = 0;
   int32_t z = 0;
 };
 
-/// Steps of one split: G_rho, G_theta, G_z of section 2.2.
+/// Steps of one split: G_rho, G_theta, G_z of section 2.2. Cartesian: rho is that of x and y.
 struct OffsetSteps {
   double rho = 1, theta = 1, z = 1;
 };
 
-/// The numbers that are coded for offsets: what is left after prediction.
+/// The numbers that are coded for offsets: what is left after prediction. Cartesian: theta is x and
+/// rho is y, here and in the costs.
 struct OffsetTally {
   ValueTally theta, rho, z;
 };
@@ -94,6 +97,10 @@ class OffsetCoder {
   template <class Coder>
   uint32_t CodeRho(Coder& coder, const Siblings& siblings, uint32_t i, double expected,
                    uint32_t index, OffsetMeters* meters);
+  /// x and y of child `i`.
+  template <class Coder>
+  OffsetIndex CodePlane(Coder& coder, const Siblings& siblings, uint32_t i,
+                        const std::vector<OffsetIndex>& offsets, OffsetMeters* meters);
   /// Height of child `i`, `rho` lattice units from the axis, where the surface has `bend`.
   template <class Coder>
   int32_t CodeHeight(Coder& coder, Siblings& siblings, uint32_t i, double rho, double bend,
@@ -106,6 +113,8 @@ class OffsetCoder {
   IntegerModel<2> first_theta_;
   IntegerModel<2> theta_;
   IntegerModel<2> rho_;
+  IntegerModel<2> x_;
+  IntegerModel<2> y_;
   IntegerModel<2> z_;
   MixedModel<1> half_;
 };

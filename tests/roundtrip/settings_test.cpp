@@ -79,6 +79,12 @@ std::vector<Case> Combinations() {
   fine.children = 2;
   fine.adaptive_quantisation = false;
   cases.push_back({"FineOffsetsOfPairs", fine});
+  CodecSettings plain;
+  plain.offsets = Offsets::kCartesian;
+  plain.children = 7;
+  plain.quantisation_levels = 5;
+  plain.adaptive_quantisation = plain.predict_height = plain.split_first = false;
+  cases.push_back({"CartesianOffsetsRefinedAtOnce", plain});
   CodecSettings many;
   many.layers_per_octave = 8;
   many.rounds_per_layer = 16;

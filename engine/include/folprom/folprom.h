@@ -18,8 +18,8 @@ namespace folprom {
 
 /// What a file's bits were spent on, by what they tell. The kinds of FileInfo are sums of these.
 struct BitCounts {
-  double split = 0;                           ///< how many children
-  double root = 0, theta = 0, rho = 0, z = 0; ///< where they lie
+  double split = 0;  ///< how many children
+  double root = 0, theta = 0, rho = 0, z = 0;  ///< where they lie; Cartesian: theta is x, rho is y
   double refinement = 0;
   double connected = 0, pivots = 0, sides = 0;  ///< connectivity inside subtrees
   double exceptions = 0, seams = 0;

@@ -13,7 +13,8 @@ enum class Hierarchy : uint8_t {
 };
 
 enum class Offsets : uint8_t {
-  kCylindrical = 0  ///< cylindrical offsets in the least-squares frame, section 2.2
+  kCylindrical = 0,  ///< rho, theta, z in the least-squares frame, section 2.2
+  kCartesian = 1     ///< x, y, z in the same frame, with which the paper compares
 };
 
 enum class Representative : uint8_t {

@@ -146,6 +146,53 @@ TEST(CylinderCell, BecomesAsSmallAsWantedByHalvingTheLongest) {
   }
 }
 
+TEST(CylinderCell, CartesianKeepsThePointInsideAndWithinItsBound) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> part(-0.5, 0.5);
+  for (int round = 0; round < 2000; ++round) {
+    CylinderCell cell;
+    cell.frame = RandomFrame(random);
+    cell.frame.cartesian = true;
+    auto draw = [&] { return static_cast<double>(random() % 100000); };
+    cell.width = {draw(), draw(), draw()};
+    cell.centre = {draw() - 5e4, draw() - 5e4, draw() - 5e4};
+    const CylinderPoint point{cell.centre.rho + part(random) * cell.width.rho,
+                              cell.centre.theta + part(random) * cell.width.theta,
+                              cell.centre.z + part(random) * cell.width.z};
+    while (true) {
+      const Vector3 off{point.rho - cell.centre.rho, point.theta - cell.centre.theta,
+                        point.z - cell.centre.z};
+      ASSERT_LE(std::fabs(off[0]), cell.width.rho / 2 * (1 + 1e-9) + 1e-9);
+      ASSERT_LE(std::fabs(off[1]), cell.width.theta / 2 * (1 + 1e-9) + 1e-9);
+      ASSERT_LE(std::fabs(off[2]), cell.width.z / 2 * (1 + 1e-9) + 1e-9);
+      const Vector3 y = cell.frame.y();
+      for (size_t k = 0; k < 3; ++k) {
+        const double along = off[0] * cell.frame.x[k] + off[1] * y[k] + off[2] * cell.frame.z[k];
+        ASSERT_LE(std::fabs(along), cell.AxisBound() * (1 + 1e-9) + 1e-6);
+      }
+      if (cell.AxisBound() <= 30.5) break;
+      const auto dimension = cell.Longest();
+      cell.Halve(dimension, cell.LiesInUpper(dimension, point));
+    }
+  }
+}
+
+TEST(CylinderCell, CartesianPointsGoThereAndBack) {
+  std::mt19937_64 random(7);
+  for (int round = 0; round < 5000; ++round) {
+    CylinderCell cell;
+    cell.frame = RandomFrame(random);
+    cell.frame.cartesian = true;
+    auto draw = [&] { return static_cast<int32_t>(random() % kMost); };
+    const Int3 point{draw(), draw(), draw()};
+    cell.centre = ToCylinder(cell.frame, point);
+    const Int3 back = cell.Position(kExtent);
+    EXPECT_LE(std::max({std::abs(back.x - point.x), std::abs(back.y - point.y),
+                        std::abs(back.z - point.z)}),
+              1);
+  }
+}
+
 TEST(CylinderCell, PositionStaysOnTheLattice) {
   std::mt19937_64 random(4);
   for (int round = 0; round < 5000; ++round) {

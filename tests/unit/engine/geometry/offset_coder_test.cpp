@@ -39,6 +39,7 @@ std::vector<OffsetSettings> AllSettings() {
         all.push_back({children, levels, on, on, on});
         all.push_back({children, levels, on, !on, on});
         all.push_back({children, levels, on, on, !on});
+        all.push_back({children, levels, on, true, on, true});
       }
     }
   }
@@ -56,6 +57,11 @@ TEST(OffsetCoder, StepsFollowTheRangesAndNeverFallBelowTheLeast) {
   steps = OffsetCoder({4, 32, false, true, true}).StepsFor(at, kLeast);
   EXPECT_EQ(steps.rho, 1000);
   EXPECT_EQ(steps.z, 1000);
+  // x and y reach to both sides of the axis.
+  steps = OffsetCoder({4, 32, true, true, true, true}).StepsFor(at, kLeast);
+  EXPECT_EQ(steps.rho, 2000);
+  EXPECT_EQ(steps.theta, 2000);
+  EXPECT_EQ(steps.z, kLeast);
 }
 
 TEST(OffsetCoder, CellHoldsThePointThatWasQuantised) {
@@ -70,13 +76,15 @@ TEST(OffsetCoder, CellHoldsThePointThatWasQuantised) {
       auto near = [&] { return (1 << 28) + static_cast<int32_t>(spacing * part(random)); };
       const Int3 point{near(), near(), near()};
       const OffsetIndex index = coder.Quantise(at, steps, point);
-      ASSERT_LT(index.theta, settings.levels);
+      if (!settings.cartesian) {
+        ASSERT_LT(index.theta, settings.levels);
+      }
       const CylinderCell cell = coder.CellOf(at, steps, index);
-      const CylinderPoint local = ToCylinder(at.frame, point);
+      const CylinderPoint local = ToCylinder(cell.frame, point);
       EXPECT_LE(std::fabs(local.rho - cell.centre.rho), steps.rho / 2 * (1 + 1e-9));
       EXPECT_LE(std::fabs(local.z - cell.centre.z), steps.z / 2 * (1 + 1e-9));
       double turn = std::fabs(local.theta - cell.centre.theta);
-      turn = std::min(turn, 2 * kPi - turn);
+      if (!settings.cartesian) turn = std::min(turn, 2 * kPi - turn);
       EXPECT_LE(turn, steps.theta / 2 * (1 + 1e-9));
     }
   }
@@ -102,8 +110,15 @@ std::vector<Split> RandomSplits(const OffsetSettings& settings, uint64_t seed) {
     for (uint32_t c = 0; c < split.count; ++c) {
       // Up to what a child may be away: 2^30 lattice units in steps of 30.5 and more.
       const uint32_t size = static_cast<uint32_t>(random() % 18);
+      const uint32_t theta = static_cast<uint32_t>(random() % settings.levels);
+      const uint32_t zero = uint32_t{1} << 31;  // of x and y
+      if (settings.cartesian) {
+        const uint32_t y = zero + (static_cast<uint32_t>(random()) & ((1u << size) - 1));
+        split.offsets.push_back({zero - theta, y, static_cast<int32_t>(theta)});
+        continue;
+      }
       split.offsets.push_back(
-          {static_cast<uint32_t>(random() % settings.levels),
+          {theta,
            static_cast<uint32_t>(random() & ((1u << size) - 1)),
            static_cast<int32_t>(random() & ((1u << size) - 1)) * (random() % 2 == 0 ? 1 : -1)});
     }
@@ -250,7 +265,9 @@ TEST(OffsetCoder, RandomBytesGiveIndicesInRangeOrAnError) {
         if (count == 1) continue;
         coder.CodeOffsets(decoder, at, steps, count, &offsets, &meters);
         for (const OffsetIndex& index : offsets) {
-          ASSERT_LT(index.theta, settings.levels);
+          if (!settings.cartesian) {
+            ASSERT_LT(index.theta, settings.levels);
+          }
           const Int3 extent{(1 << 30) - 1, 1000, 0};
           const Int3 p = coder.CellOf(at, steps, index).Position(extent);
           ASSERT_TRUE(p.x >= 0 && p.x <= extent.x && p.y >= 0 && p.y <= 1000 && p.z == 0);

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -18,6 +19,8 @@
 
 namespace folprom::peers {
 namespace {
+
+volatile std::sig_atomic_t stopped = 0;
 
 /// Where a standard stream of the child goes: a file, or unchanged.
 using Target = std::optional<std::string>;
@@ -49,13 +52,21 @@ Run Start(const Command& command, const Target& output, const Target& log) {
     if (errno != EINTR) {
       throw Failure(ErrorKind::kInternal, std::string("wait4: ") + std::strerror(errno));
     }
+    if (stopped != 0) kill(child, SIGTERM);
   }
+  if (stopped != 0) throw Failure(ErrorKind::kInterrupted, "interrupted");
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   return {WIFEXITED(status) && WEXITSTATUS(status) == 0, seconds.count(),
           static_cast<uint64_t>(usage.ru_maxrss) * 1024};
 }
 
 }  // namespace
+
+void StopOnSignals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stopped = 1; };
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+}
 
 Run Execute(const Command& command, const std::string& output, const std::string& log) {
   return Start(command, output, log);

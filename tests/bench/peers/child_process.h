@@ -14,6 +14,10 @@ struct Run {
   uint64_t peak_bytes = 0;  ///< largest resident size
 };
 
+/// From now on a signal to stop ends the running program too, and what runs it throws Failure
+/// kInterrupted, so that temporary files go.
+void StopOnSignals();
+
 /// A program found on PATH, with its arguments.
 using Command = std::vector<std::string>;
 

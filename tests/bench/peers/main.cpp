@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "folprom/result.h"
+#include "tests/bench/peers/child_process.h"
 #include "tests/bench/peers/contenders.h"
 #include "tests/bench/peers/curve.h"
 #include "tests/bench/peers/marked_file.h"
@@ -148,10 +149,11 @@ int Main(int argc, char** argv) {
   program.add_option("--runs", flags.runs, "Alternating runs, 5")->check(CLI::Range(1, 1000));
   program.add_flag("--no-race", flags.no_race, "No sizes, times and memory");
   program.add_flag("--no-curves", flags.no_curves, "No rate and distortion");
-  program.add_option("-o,--output", flags.output, "Folder for CSV and plots");
+  program.add_option("-o,--output", flags.output, "Folder for CSV and plots")->take_last();
   program.add_option("--results", flags.results,
                      "Also put the tables between this file's marks, and plots beside it");
   CLI11_PARSE(program, argc, argv);
+  StopOnSignals();
   Work(flags);
   return 0;
 }
@@ -162,6 +164,9 @@ int Main(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return folprom::peers::Main(argc, argv);
+  } catch (const folprom::Failure& fault) {
+    std::fprintf(stderr, "peers: %s\n", fault.what());
+    return static_cast<int>(fault.error().kind);
   } catch (const std::exception& fault) {
     std::fprintf(stderr, "peers: %s\n", fault.what());
     return 1;

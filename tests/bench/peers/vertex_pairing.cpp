@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace folprom::peers {
 namespace {
@@ -92,125 +94,136 @@ class Pairing {
         decoded_faces_(decoded),
         candidates_(decoded.positions.size()),
         partner_(decoded.positions.size(), kNoVertex),
-        taken_(original.positions.size(), false) {
+        taken_(original.positions.size(), false),
+        queued_(decoded.positions.size(), false) {
     const PointIndex index(original.positions, tolerance);
-    for (size_t v = 0; v < candidates_.size(); ++v) {
+    for (uint32_t v = 0; v < candidates_.size(); ++v) {
       candidates_[v] = index.NearTo(decoded.positions[v]);
+      if (candidates_[v].size() < 2) continue;
+      left_.push_back(v);
+      for (const uint32_t choice : candidates_[v]) claims_.push_back({choice, v});
     }
+    std::sort(claims_.begin(), claims_.end());
   }
 
   std::vector<uint32_t> Run() {
     for (uint32_t v = 0; v < partner_.size(); ++v) {
       if (candidates_[v].size() == 1) Pair(v, candidates_[v].front());
     }
-    left_.resize(partner_.size());
-    std::iota(left_.begin(), left_.end(), 0U);
+    for (const uint32_t v : left_) Enqueue(v);
     do {
-      Spread();
-    } while (PairLastChoices() || PairBestGuess());
+      while (!queue_.empty()) NarrowNext();
+    } while (Guess());
     return std::move(partner_);
   }
 
  private:
   bool Paired(uint32_t v) const { return partner_[v] != kNoVertex; }
 
-  void Pair(uint32_t v, uint32_t original) {
-    if (taken_[original]) return;
-    taken_[original] = true;
-    partner_[v] = original;
-    fresh_.push_back(v);
+  void Enqueue(uint32_t v) {
+    if (Paired(v) || queued_[v] || candidates_[v].size() < 2) return;
+    queued_[v] = true;
+    queue_.push_back(v);
   }
 
-  // From paired vertices to their neighbours, as far as faces leave one choice.
-  void Spread() {
-    while (!fresh_.empty()) {
-      const uint32_t v = fresh_.back();
-      fresh_.pop_back();
-      for (const uint32_t f : decoded_faces_.Around(v)) {
-        for (const uint32_t w : decoded_.faces[f]) {
-          if (!Paired(w)) PairByFace(decoded_.faces[f], w);
-        }
-      }
-    }
-  }
-
-  // Where a face has two paired corners, the third is that of an original face on the same edge.
-  void PairByFace(const Triple& face, uint32_t w) {
-    const size_t corner =
-        static_cast<size_t>(std::find(face.begin(), face.end(), w) - face.begin());
-    const uint32_t next = partner_[face[(corner + 1) % 3]];
-    const uint32_t last = partner_[face[(corner + 2) % 3]];
-    if (next == kNoVertex || last == kNoVertex) return;
-    uint32_t only = kNoVertex;
-    for (const uint32_t choice : candidates_[w]) {
-      if (taken_[choice] || choice == only || !HasFace({choice, next, last})) continue;
-      if (only != kNoVertex) return;
-      only = choice;
-    }
-    if (only != kNoVertex) Pair(w, only);
-  }
-
-  bool HasFace(const Triple& wanted) const {
-    for (const uint32_t f : original_faces_.Around(wanted[0])) {
-      const Triple& face = original_.faces[f];
-      for (size_t k = 0; k < 3; ++k) {
-        if (Triple{face[k], face[(k + 1) % 3], face[(k + 2) % 3]} == wanted) return true;
-      }
-    }
-    return false;
-  }
-
-  void DropTaken(uint32_t v) {
-    std::erase_if(candidates_[v], [&](uint32_t choice) { return taken_[choice]; });
-  }
-
-  bool PairLastChoices() {
-    std::erase_if(left_, [&](uint32_t v) { return Paired(v); });
-    for (const uint32_t v : left_) {
-      DropTaken(v);
-      if (candidates_[v].size() == 1) Pair(v, candidates_[v].front());
-    }
-    return !fresh_.empty();
-  }
-
-  // One of those left goes to the candidate with the most faces in common; all are in a tie where
-  // its neighbours are left too.
-  bool PairBestGuess() {
-    for (const uint32_t v : left_) {
-      const std::vector<uint32_t>& choices = candidates_[v];
-      if (choices.empty()) continue;
-      Pair(v, *std::max_element(choices.begin(), choices.end(), [&](uint32_t a, uint32_t b) {
-             return Agreement(v, a) < Agreement(v, b);
-           }));
-      return true;
-    }
-    return false;
-  }
-
-  // Faces of v that this choice would bring back; -1 where it has another number of faces.
-  int Agreement(uint32_t v, uint32_t choice) const {
-    if (decoded_faces_.Around(v).size() != original_faces_.Around(choice).size()) return -1;
-    int agreement = 0;
+  void EnqueueNeighbours(uint32_t v) {
     for (const uint32_t f : decoded_faces_.Around(v)) {
-      Triple mapped;
-      for (size_t k = 0; k < 3; ++k) {
-        const uint32_t corner = decoded_.faces[f][k];
-        mapped[k] = corner == v ? choice : partner_[corner];
-      }
-      std::rotate(mapped.begin(), std::find(mapped.begin(), mapped.end(), choice), mapped.end());
-      agreement += HasFace(mapped) ? 1 : 0;
+      for (const uint32_t w : decoded_.faces[f]) Enqueue(w);
     }
-    return agreement;
   }
+
+  void Pair(uint32_t v, uint32_t choice) {
+    if (taken_[choice]) return;
+    taken_[choice] = true;
+    partner_[v] = choice;
+    EnqueueNeighbours(v);
+    auto claim = std::lower_bound(claims_.begin(), claims_.end(), Claim{choice, 0});
+    for (; claim != claims_.end() && claim->original == choice; ++claim) Enqueue(claim->decoded);
+  }
+
+  // Leaves those candidates that are free and could bring back all faces of the vertex. Where none
+  // could, the mesh is not the original here, and faces say nothing.
+  void NarrowNext() {
+    const uint32_t v = queue_.back();
+    queue_.pop_back();
+    queued_[v] = false;
+    if (Paired(v)) return;
+    std::vector<uint32_t>& choices = candidates_[v];
+    const size_t before = choices.size();
+    std::erase_if(choices, [&](uint32_t choice) { return taken_[choice]; });
+    std::vector<uint32_t> able;
+    std::copy_if(choices.begin(), choices.end(), std::back_inserter(able), [&](uint32_t choice) {
+      const size_t faces = decoded_faces_.Around(v).size();
+      return original_faces_.Around(choice).size() == faces && FacesBack(v, choice) == faces;
+    });
+    if (!able.empty()) choices = std::move(able);
+    if (choices.size() == 1) {
+      Pair(v, choices.front());
+    } else if (choices.size() < before) {
+      EnqueueNeighbours(v);
+    }
+  }
+
+  // Number of the faces of v that some face around `choice` could be.
+  size_t FacesBack(uint32_t v, uint32_t choice) const {
+    const auto decoded = decoded_faces_.Around(v);
+    return static_cast<size_t>(std::count_if(decoded.begin(), decoded.end(), [&](uint32_t f) {
+      const auto faces = original_faces_.Around(choice);
+      return std::any_of(faces.begin(), faces.end(), [&](uint32_t g) {
+        return CouldBe(v, choice, decoded_.faces[f], original_.faces[g]);
+      });
+    }));
+  }
+
+  // Could the two faces be the same in one of their rotations, if v were `choice`.
+  bool CouldBe(uint32_t v, uint32_t choice, const Triple& decoded, const Triple& original) const {
+    const auto could = [&](uint32_t w, uint32_t o) {
+      if (w == v || o == choice) return w == v && o == choice;
+      if (Paired(w)) return partner_[w] == o;
+      return !taken_[o] &&
+             std::find(candidates_[w].begin(), candidates_[w].end(), o) != candidates_[w].end();
+    };
+    for (size_t k = 0; k < 3; ++k) {
+      if (could(decoded[0], original[k]) && could(decoded[1], original[(k + 1) % 3]) &&
+          could(decoded[2], original[(k + 2) % 3])) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // One of those left takes the candidate that brings back most faces; any where they are alike.
+  bool Guess() {
+    std::erase_if(left_, [&](uint32_t v) { return Paired(v) || candidates_[v].empty(); });
+    if (left_.empty()) return false;
+    const uint32_t v = left_.back();
+    left_.pop_back();
+    std::vector<uint32_t>& choices = candidates_[v];
+    std::erase_if(choices, [&](uint32_t choice) { return taken_[choice]; });
+    if (choices.empty()) return true;
+    const auto best = std::max_element(choices.begin(), choices.end(), [&](uint32_t a, uint32_t b) {
+      return FacesBack(v, a) < FacesBack(v, b);
+    });
+    Pair(v, *best);
+    return true;
+  }
+
+  struct Claim {
+    uint32_t original;
+    uint32_t decoded;
+    auto operator<=>(const Claim&) const = default;
+  };
 
   const Mesh& original_;
   const Mesh& decoded_;
   const FaceIndex original_faces_, decoded_faces_;
   std::vector<std::vector<uint32_t>> candidates_;  ///< original vertices near a decoded one
+  std::vector<Claim> claims_;                      ///< of those with more than one candidate
   std::vector<uint32_t> partner_;
   std::vector<bool> taken_;
-  std::vector<uint32_t> fresh_;  ///< paired, neighbours not looked at
-  std::vector<uint32_t> left_;   ///< decoded vertices that were not paired when last looked
+  std::vector<uint32_t> queue_;  ///< to be narrowed
+  std::vector<bool> queued_;
+  std::vector<uint32_t> left_;  ///< had more than one candidate, not paired when last looked
 };
 
 }  // namespace

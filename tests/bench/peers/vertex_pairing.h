@@ -16,8 +16,8 @@ inline constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
 bool InSameOrder(const Mesh& original, const Mesh& decoded, double tolerance);
 
 /// For each decoded vertex an original one within `tolerance` (above 0) per axis, or kNoVertex; no
-/// original vertex twice. The identity where InSameOrder. Else those with one possible partner are
-/// paired first; faces lead from them to their neighbours.
+/// original vertex twice. The identity where InSameOrder. Else those with one vertex in reach are
+/// paired with it; of the others, faces exclude candidates until one is left.
 std::vector<uint32_t> PairVertices(const Mesh& original, const Mesh& decoded, double tolerance);
 
 }  // namespace folprom::peers

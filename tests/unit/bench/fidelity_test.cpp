@@ -71,6 +71,20 @@ TEST(Fidelity, PairsVerticesCloserThanTheToleranceByTheirFaces) {
   EXPECT_TRUE(CompareWithOriginal(mesh, Shuffled(mesh), kTolerance).same_connectivity());
 }
 
+TEST(Fidelity, PairsCoincidentVerticesByTheirFaces) {
+  Mesh mesh = Square(9, 1);
+  // A second square begins on the line where the first one ends, with vertices of its own, and a
+  // third one covers the first.
+  for (const double shift : {8.0, 0.0}) {
+    const auto base = static_cast<uint32_t>(mesh.positions.size());
+    for (const Point& p : Square(9, 1).positions) mesh.positions.push_back({p[0] + shift, p[1], 0});
+    for (const Triple& f : Square(9, 1).faces) {
+      mesh.faces.push_back({f[0] + base, f[1] + base, f[2] + base});
+    }
+  }
+  EXPECT_TRUE(CompareWithOriginal(mesh, Shuffled(mesh), kTolerance).same_connectivity());
+}
+
 TEST(Fidelity, PairsCoincidentIsolatedVertices) {
   Mesh mesh = Square(4, 1);
   for (int i = 0; i < 3; ++i) mesh.positions.push_back({9, 9, 9});

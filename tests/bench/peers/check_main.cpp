@@ -9,14 +9,14 @@
 #include "tests/bench/peers/mesh_file.h"
 
 int main(int argc, char** argv) {
-  using namespace folprom::peers;
+  using folprom::peers::ReadMesh;
   if (argc != 4) {
     std::fprintf(stderr, "peer_check ORIGINAL.ply DECODED.ply TOLERANCE\n");
     return 2;
   }
   try {
-    const Fidelity fidelity =
-        CompareWithOriginal(ReadMesh(argv[1]), ReadMesh(argv[2]), std::stod(argv[3]));
+    const folprom::peers::Fidelity fidelity = folprom::peers::CompareWithOriginal(
+        ReadMesh(argv[1]), ReadMesh(argv[2]), std::stod(argv[3]));
     const nlohmann::ordered_json json = {{"vertices", fidelity.decoded.vertices},
                                          {"faces", fidelity.decoded.faces},
                                          {"lost_vertices", fidelity.lost.vertices},

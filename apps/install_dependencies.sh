@@ -1,10 +1,21 @@
 #!/bin/sh
-# Installs the Debian packages that the build and the tests need. Does nothing when all are there.
+# Installs the Debian packages that the build and the tests need, and with the argument `bench` also
+# those of the programs that tests/bench compares with. Does nothing when all are there.
 set -eu
 
 packages="cmake g++ libboost-iostreams-dev libcli11-dev libeigen3-dev libembree-dev libfast-float-dev
   libgtest-dev libopenvdb-dev libspdlog-dev libtbb-dev libtomlplusplus-dev libxxhash-dev
   ninja-build nlohmann-json3-dev zlib1g-dev"
+bench_packages="draco libdraco-dev libmeshoptimizer-dev libzstd-dev openctm-tools xz-utils"
+
+case ${1:-} in
+  '') ;;
+  bench) packages="$packages $bench_packages" ;;
+  *)
+    echo "usage: install_dependencies.sh [bench]" >&2
+    exit 2
+    ;;
+esac
 
 missing=
 for package in $packages; do

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -34,6 +35,17 @@ struct Search {
   float Radius() const { return RoundedUp((std::sqrt(squared) + rounding) * (1 + 1e-6) + 1e-12); }
 };
 
+#if defined(__SANITIZE_THREAD__)
+/// Repeats, where the thread sanitizer sees it, the order in which oneTBB hands the mesh to Embree's
+/// threads and back.
+std::atomic<uint32_t> order_of_handover{0};
+void HandOver() { order_of_handover.fetch_add(1, std::memory_order_release); }
+void TakeOver() { static_cast<void>(order_of_handover.load(std::memory_order_acquire)); }
+#else
+void HandOver() {}
+void TakeOver() {}
+#endif
+
 }  // namespace
 
 void NearestSurface::ReleaseDevice::operator()(RTCDeviceTy* device) const {
@@ -45,6 +57,7 @@ void NearestSurface::ReleaseScene::operator()(RTCSceneTy* scene) const { rtcRele
 // What Embree calls back.
 struct NearestSurface::Callbacks {
   static void Bounds(const RTCBoundsFunctionArguments* arguments) {
+    TakeOver();
     const auto& mesh = *static_cast<const TriangleMesh*>(arguments->geometryUserPtr);
     Vector3 lo, hi;
     if (mesh.faces.empty()) {
@@ -66,6 +79,7 @@ struct NearestSurface::Callbacks {
     box.upper_x = RoundedUp(hi[0]);
     box.upper_y = RoundedUp(hi[1]);
     box.upper_z = RoundedUp(hi[2]);
+    HandOver();
   }
 
   static bool Visit(RTCPointQueryFunctionArguments* arguments) {
@@ -117,7 +131,9 @@ void NearestSurface::Build(parallel::Runner& runner) {
   rtcReleaseGeometry(geometry);
   // Embree works with oneTBB, in the arena of its caller: inside a task, that of the runner. A
   // number of threads given to Embree itself would bind the whole process.
+  HandOver();
   runner.ForEach(1, [&](size_t) { rtcCommitScene(scene_.get()); });
+  TakeOver();
 }
 
 size_t NearestSurface::element_count() const {

@@ -66,8 +66,7 @@ io::ScalarType OutputType(io::ScalarType input) {
   }
 }
 
-Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, uint32_t bits,
-                        double tolerance) {
+Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, const EncodeOptions& options) {
   Resolution result;
   if (bounds.empty()) return result;
   double longest = bounds.longest();
@@ -76,8 +75,8 @@ Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, uint32_t bits
                                          Text(kSmallestSide) + " to " + Text(kLargestSide) +
                                          " can be coded");
   }
-  double steps = static_cast<double>((uint64_t{1} << bits) - 1);
-  result.tolerance = tolerance > 0 ? tolerance : longest / steps / 2;
+  double steps = static_cast<double>((uint64_t{1} << options.bits) - 1);
+  result.tolerance = options.tolerance > 0 ? options.tolerance : longest / steps / 2;
   result.lattice.origin = bounds.lo;
   if (!(longest > 0)) return result;
   // Writing to float or double rounds once more: half a step of the output. Below that half the
@@ -88,7 +87,8 @@ Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, uint32_t bits
   }
   double inner = std::max(result.tolerance - StepOf(OutputType(type), largest) / 2,
                           result.tolerance / 2);
-  result.lattice.unit = inner / kUnitsPerTolerance;
+  result.lattice.unit =
+      options.codec.offsets == Offsets::kLattice ? 2 * inner : inner / kUnitsPerTolerance;
   if (!(longest / result.lattice.unit < kLatticeLimit - 2)) {
     throw Failure(ErrorKind::kUsage,
                   "tolerance " + Text(result.tolerance) + " is too fine for coordinates up to " +
@@ -113,7 +113,7 @@ void EncodeJob::MeasureScan() {
   Bounds bounds = MeasureBounds(*source_, runner_, progress_);
   try {
     resolution_ =
-        ResolutionOf(bounds, source_->coordinate_type(), options_.bits, options_.tolerance);
+        ResolutionOf(bounds, source_->coordinate_type(), options_);
   } catch (const Failure& failure) {
     throw Failure(failure.error().kind, source_->path() + ": " + failure.error().message);
   }
@@ -136,10 +136,11 @@ void EncodeJob::Partition() {
   parameters_.extent = {extent[0], extent[1], extent[2]};
   uint32_t per_octave = options_.codec.layers_per_octave;
   double edge = TypicalEdge();
+  Offsets offsets = options_.codec.offsets;
   parameters_.schedule = LayerSchedule(parameters_.extent, per_octave,
                                        options_.codec.rounds_per_layer,
-                                       SplitLayersFor(parameters_.extent, edge, per_octave),
-                                       RefineLayersFor(parameters_.extent, edge, per_octave));
+                                       SplitLayersFor(parameters_.extent, edge, per_octave, offsets),
+                                       RefineLayersFor(parameters_.extent, edge, per_octave, offsets));
 }
 
 double EncodeJob::TypicalEdge() const {

@@ -25,7 +25,7 @@ struct Resolution {
   Lattice lattice;
   double tolerance = 0;  ///< asked for, model units per axis
 };
-Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, uint32_t bits, double tolerance);
+Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, const EncodeOptions& options);
 
 /// Type in which decoded coordinates are written.
 io::ScalarType OutputType(io::ScalarType input);

@@ -8,22 +8,24 @@
 namespace folprom {
 namespace {
 
-constexpr std::string_view kHierarchies[] = {"lloyd"};
-constexpr std::string_view kOffsets[] = {"cylindrical", "cartesian"};
+constexpr std::string_view kHierarchies[] = {"lloyd", "quadric"};
+constexpr std::string_view kOffsets[] = {"cylindrical", "cartesian", "lattice"};
 constexpr std::string_view kRepresentatives[] = {"curvature", "centre", "quadric"};
 
 using S = CodecSettings;
 
 constexpr SettingKey kKeys[] = {
-    {"hierarchy", &S::hierarchy, "how vertex sets are made: lloyd, top-down split (section 2.1)",
-     "", 0, 0, kHierarchies},
+    {"hierarchy", &S::hierarchy, "lloyd: vertex sets split top-down (section 2.1); quadric: contracted bottom-up, two a split", "",
+     0, 0, kHierarchies},
     {"offsets", &S::offsets,
-     "how children are placed in the least-squares frame (section 2.2): rho, theta, z or x, y, z",
+     "rho, theta, z or x, y, z in the least-squares frame (section 2.2); lattice: exact, for quadric",
      "", 0, 0, kOffsets},
     {"subtree_vertices", &S::subtree_vertices,
      "largest subtree: unit of parallel work, memory and random access", "vertices", 1, 16777216},
     {"subtree_normals", &S::subtree_normals,
      "subtrees are cut by the metric of section 2.1; false: by Euclidean distance", ""},
+    {"length_weight", &S::length_weight,
+     "of area x length^2 beside the quadric error of a contraction; keeps rings regular", "", 0, 10},
     {"children", &S::children, "K, children of a split (section 2)", "vertex sets", 2, 8},
     {"normal_metric", &S::normal_metric,
      "distances weigh normals by w_n (section 2.1); false: Euclidean distance", ""},
@@ -102,6 +104,9 @@ Result<void> CheckSettings(const CodecSettings& settings) {
     const Result<void> checked = std::visit(
         [&](auto member) { return CheckValue(key, settings.*member); }, key.member);
     if (!checked) return checked.error();
+  }
+  if (settings.offsets == Offsets::kLattice && settings.hierarchy != Hierarchy::kQuadric) {
+    return Error{ErrorKind::kUsage, "offsets = \"lattice\" needs hierarchy = \"quadric\""};
   }
   return {};
 }

@@ -4,10 +4,11 @@
 #include <cstdlib>
 
 #include "engine/codec/border_seam_truth.h"
-#include "engine/codec/lloyd_truth.h"
+#include "engine/codec/tree_truth.h"
 #include "engine/codec/seam_coder.h"
 #include "engine/entropy/bit_coder.h"
 #include "engine/hierarchy/lloyd_tree.h"
+#include "engine/hierarchy/quadric_tree.h"
 #include "engine/hierarchy/surface.h"
 #include "engine/mesh/digest.h"
 #include "engine/mesh/lattice.h"
@@ -16,18 +17,32 @@ namespace folprom {
 namespace {
 
 void CheckTolerance(const SubtreeChunk& chunk, const std::vector<Int3>& positions,
-                    const std::vector<uint32_t>& final_vertices) {
-  constexpr int32_t kMost = static_cast<int32_t>(kUnitsPerTolerance) - 1;
+                    const std::vector<uint32_t>& final_vertices, Offsets offsets) {
+  const int32_t most =
+      offsets == Offsets::kLattice ? 0 : static_cast<int32_t>(kUnitsPerTolerance) - 1;
   for (size_t i = 0; i < chunk.positions.size(); ++i) {
     const Int3 &a = chunk.positions[i], &b = positions[final_vertices[i]];
     int32_t error = std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
-    if (error > kMost) {
+    if (error > most) {
       throw Failure(ErrorKind::kInternal, "a refined position misses the tolerance");
     }
   }
 }
 
 }  // namespace
+
+SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree,
+                     const CodecParameters& parameters) {
+  const CodecSettings& settings = parameters.settings;
+  if (settings.hierarchy == Hierarchy::kQuadric) {
+    return BuildQuadricTree(chunk.positions, chunk.faces, chunk.cross_faces, subtree, settings);
+  }
+  const Int3& extent = parameters.extent;
+  double longest = std::max({extent.x, extent.y, extent.z});
+  SurfaceAttributes surface =
+      MeasureSurface(chunk.positions, chunk.faces, chunk.cross_faces, subtree);
+  return BuildLloydTree(chunk.positions, surface, longest, settings);
+}
 
 uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary) {
   // Per vertex: tree and points 220, complex and cells 420. Per face: oracle and chunk 110.
@@ -38,15 +53,8 @@ uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary) {
 EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& summary,
                              uint32_t subtree, const CodecParameters& parameters,
                              const CostMeters& meters) {
-  const Int3& extent = parameters.extent;
-  double longest = std::max({extent.x, extent.y, extent.z});
-  SetTree tree;
-  {
-    SurfaceAttributes surface =
-        MeasureSurface(chunk.positions, chunk.faces, chunk.cross_faces, subtree);
-    tree = BuildLloydTree(chunk.positions, surface, longest, parameters.settings);
-  }
-  LloydTruth truth(chunk, subtree, tree);
+  const SetTree tree = BuildSetTree(chunk, subtree, parameters);
+  TreeTruth truth(chunk, subtree, tree);
   SubtreeShape shape;
   shape.vertices = summary.vertices;
   shape.box_lo = summary.box_lo;
@@ -66,7 +74,8 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
     result.faces.push_back(coder.face_count());
   }
   result.final_vertices = truth.FinalVertices();
-  CheckTolerance(chunk, coder.positions(), result.final_vertices);
+  CheckTolerance(chunk, coder.positions(), result.final_vertices,
+                 parameters.settings.offsets);
 
   const std::vector<Int3>& positions = coder.positions();
   for (const Int3& position : positions) AddVertex(&result.digest, position);

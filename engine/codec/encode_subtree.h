@@ -7,6 +7,7 @@
 #include "engine/codec/border_record.h"
 #include "engine/codec/parameters.h"
 #include "engine/codec/subtree_coder.h"
+#include "engine/hierarchy/set_tree.h"
 #include "engine/partition/partition.h"
 #include "io/container/file_table.h"
 
@@ -31,6 +32,9 @@ struct EncodedSubtree {
   /// Index in the decoded subtree of each vertex of the chunk.
   std::vector<uint32_t> final_vertices;
 };
+
+/// The hierarchy that the settings ask for.
+SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree, const CodecParameters& parameters);
 
 /// Upper estimate of the memory that EncodeSubtree takes.
 uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary);

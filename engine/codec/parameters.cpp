@@ -18,6 +18,9 @@ constexpr double kLog2 = 0.69314718055994530942;
 /// Cells in split layers are this much smaller than the spacing when leaves do not wait.
 constexpr double kCellsPerSpacing = 16;
 
+/// New vertices of lattice offsets have this many cells per spacing.
+constexpr double kLatticeCellsPerSpacing = 12;
+
 /// The first layer's spacing as a part of the longest side: layers before it would hold a few dozen
 /// vertices, less than the table says of them.
 constexpr double kFirstSpacing = 4;
@@ -67,20 +70,39 @@ double LayerSchedule::RefineBound(uint32_t layer) const {
   return bound;
 }
 
-uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave) {
-  double finest = std::max(typical_edge / 2, 2 * kUnitsPerTolerance);
+uint32_t LayerSchedule::LatticeShift(uint32_t layer) const {
+  if (layer >= split_layers_) return layers() - 1 - layer;
+  // The last split layer has no spacing of its own.
+  uint32_t measured = IsLastSplitLayer(layer) && layer > 0 ? layer - 1 : layer;
+  double spacing = measured == layer && IsLastSplitLayer(layer)
+                       ? 0
+                       : SplitSpacing(measured, rounds(measured) - 1);
+  auto cells = static_cast<uint64_t>(spacing / kLatticeCellsPerSpacing);
+  return cells < 2 ? 0 : static_cast<uint32_t>(std::bit_width(cells)) - 1;
+}
+
+uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
+                        Offsets offsets) {
+  double least = offsets == Offsets::kLattice ? 1 : 2 * kUnitsPerTolerance;
+  double finest = std::max(typical_edge / 2, least);
   double octaves = std::max(Log2Exact(Longest(extent) / finest), 0.0);
   return static_cast<uint32_t>(octaves * layers_per_octave) + 2;
 }
 
-uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave) {
+uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
+                         Offsets offsets) {
+  if (offsets == Offsets::kLattice) {
+    // A bit per layer, from the cells of the last split layer on.
+    double cells = (typical_edge > 0 ? typical_edge : Longest(extent)) / kLatticeCellsPerSpacing;
+    return static_cast<uint32_t>(std::bit_width(static_cast<uint64_t>(cells))) + 1;
+  }
   double coarsest = typical_edge > 0 ? typical_edge / 16 : Longest(extent);
   double octaves = std::max(Log2Exact(coarsest / kLeafBound), 0.0);
   return static_cast<uint32_t>(octaves * layers_per_octave) + 1;
 }
 
 OffsetSettings CodecParameters::offsets() const {
-  return {settings.children, settings.quantisation_levels, settings.adaptive_quantisation,
+  return {children(), settings.quantisation_levels, settings.adaptive_quantisation,
           settings.predict_theta, settings.predict_height,
           settings.offsets == Offsets::kCartesian};
 }
@@ -148,8 +170,9 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: " + checked.error().message);
   }
   uint32_t per_octave = parameters.settings.layers_per_octave;
-  if (counts[0] < 1 || counts[0] > SplitLayersFor(extent, 0, per_octave) ||
-      counts[1] > RefineLayersFor(extent, 0, per_octave)) {
+  Offsets offsets = parameters.settings.offsets;
+  if (counts[0] < 1 || counts[0] > SplitLayersFor(extent, 0, per_octave, offsets) ||
+      counts[1] > RefineLayersFor(extent, 0, per_octave, offsets)) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: number of layers out of range");
   }
   parameters.schedule = LayerSchedule(extent, per_octave, parameters.settings.rounds_per_layer,

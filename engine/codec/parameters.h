@@ -36,6 +36,8 @@ class LayerSchedule {
   /// Cells are halved until their bound per axis is at most this; lattice units. In split layers
   /// (settings.split_first off) it follows the spacing.
   double RefineBound(uint32_t layer) const;
+  /// Shift of the cells of lattice offsets; those along the normal may be finer.
+  uint32_t LatticeShift(uint32_t layer) const;
 
  private:
   double longest_ = 1;
@@ -46,8 +48,10 @@ class LayerSchedule {
 /// Numbers of layers before empty ones are dropped, for vertices `typical_edge` lattice units apart
 /// (0: unknown). Sets and cells far from typical share the last split and the first refine layer
 /// instead of having many nearly empty ones.
-uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave);
-uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave);
+uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
+                        Offsets offsets);
+uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
+                         Offsets offsets);
 
 /// Settings of the coder as one value.
 struct CodecParameters {
@@ -55,6 +59,10 @@ struct CodecParameters {
   Int3 extent;
   LayerSchedule schedule;
 
+  /// Most children of a split.
+  uint32_t children() const {
+    return settings.hierarchy == Hierarchy::kQuadric ? 2 : settings.children;
+  }
   OffsetSettings offsets() const;
   ConnectivitySettings connectivity() const;
 };

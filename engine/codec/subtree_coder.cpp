@@ -62,6 +62,7 @@ CostMeters& CostMeters::operator+=(const CostMeters& other) {
 SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape& shape)
     : parameters_(parameters),
       shape_(shape),
+      lattice_coder_(shape.box_lo, shape.box_hi),
       split_coder_(parameters.connectivity()),
       offset_coder_(parameters.offsets()),
       due_({kDueBuckets * kDueBuckets, kDueBuckets}),
@@ -78,11 +79,17 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
     coder.SetMeter(&meters->root);
     CodeRoot(coder, truth);
   }
+  bool lattice = parameters_.settings.offsets == Offsets::kLattice;
+  if (lattice) {
+    coder.SetMeter(&meters->refinement);
+    CodePrecision(coder, truth);
+    CodeLatticeRefinement(coder, truth, meters);
+  }
   if (layer_ < schedule.split_layers()) {
     for (uint32_t round = 0; round < schedule.rounds(layer_); ++round) {
       CodeRound(coder, schedule.SplitSpacing(layer_, round), truth, meters);
     }
-    if (!parameters_.settings.split_first) {
+    if (!lattice && !parameters_.settings.split_first) {
       CodeRefinement(coder, schedule.RefineBound(layer_), truth, meters);
     }
     if (schedule.IsLastSplitLayer(layer_)) {
@@ -94,7 +101,7 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
       if constexpr (Coder::kEncoding) census = truth->CountFaces(complex_);
       exceptions_.Code(coder, complex_, Coder::kEncoding ? &census : nullptr);
     }
-  } else {
+  } else if (!lattice) {
     CodeRefinement(coder, schedule.RefineBound(layer_), truth, meters);
   }
   border_.layer_end.push_back(static_cast<uint32_t>(border_.events.size()));
@@ -121,6 +128,7 @@ void SubtreeCoder::CodeRoot(Coder& coder, SubtreeTruth* truth) {
   }
   if (record.state != kLeaf) open_.push_back(0);
   sets_.push_back(record);
+  lattice_coder_.AddRoot();
 }
 
 double SubtreeCoder::Spacing(uint32_t set) const {
@@ -207,7 +215,7 @@ bool SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTr
   if constexpr (Coder::kEncoding) count = truth->ChildCount(set);
   if (set == 0 && positions_.size() == 1) {
     // The only set: the table says how many vertices it holds.
-    count = std::min(shape_.vertices, parameters_.settings.children);
+    count = std::min(shape_.vertices, parameters_.children());
   } else {
     count = offset_coder_.CodeChildCount(coder, ContextOf(set, spacing), count);
   }
@@ -218,7 +226,11 @@ bool SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTr
   if (positions_.size() + count - 1 > shape_.vertices) {
     throw Failure(ErrorKind::kCorrupt, "coded sets exceed the vertices of the subtree");
   }
-  CodeChildren(coder, set, count, truth, meters);
+  if (parameters_.settings.offsets == Offsets::kLattice) {
+    CodeNewVertex(coder, set, truth, meters);
+  } else {
+    CodeChildren(coder, set, count, truth, meters);
+  }
   return true;
 }
 
@@ -259,9 +271,84 @@ void SubtreeCoder::CodeChildren(Coder& coder, uint32_t set, uint32_t count, Subt
     reach = std::max(reach, Dot(d, d));
   }
   child_scale_ = static_cast<float>(std::sqrt(reach));
-  children_are_leaves_ = count < parameters_.settings.children;
+  children_are_leaves_ = count < parameters_.children();
   GroupChildren(count);
   CodeBinarySplits(coder, set, truth, meters);
+}
+
+RingShape SubtreeCoder::ShapeAround(uint32_t set) {
+  const Int3& centre = positions_[set];
+  ring_.clear();
+  for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
+    ring_.push_back(positions_[complex_.half_edge(h).target]);
+  }
+  FanSums fan;
+  for (uint32_t c = complex_.FirstCorner(set); c != kNone; c = complex_.corner(c).next) {
+    fan.AddFace(Difference(positions_[complex_.corner(NextCorner(c)).vertex], centre),
+                Difference(positions_[complex_.corner(PreviousCorner(c)).vertex], centre));
+  }
+  return MeasureRing(centre, ring_, fan, static_cast<double>(sets_[set].scale));
+}
+
+template <class Coder>
+void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, SubtreeTruth* truth,
+                                 CostMeters* meters) {
+  constexpr std::array<uint32_t, 2> kOrder{0, 1};
+  Int3 position;
+  if constexpr (Coder::kEncoding) {
+    position = truth->ChildRepresentative(set, 1);
+    truth->BeginSplit(set, kOrder);
+  }
+  position =
+      lattice_coder_.CodeNew(coder, positions_[set], ShapeAround(set), precision_, position,
+                             &meters->offsets.rho, &meters->offsets.z);
+  if constexpr (Coder::kEncoding) {
+    truth->BeginBinarySplit(set, std::span(kOrder).first(1), std::span(kOrder).last(1));
+  }
+  const Int3 kept = positions_[set];
+  Vector3 d = Difference(position, kept);
+  uint32_t added = CodeBinarySplit(coder, set, kept, position, truth, meters);
+  if constexpr (Coder::kEncoding) truth->EndBinarySplit(added);
+  for (uint32_t child : {set, added}) {
+    sets_[child].scale = static_cast<float>(std::sqrt(Dot(d, d)));
+    sets_[child].spacing = kUnmeasured;
+    open_.push_back(child);
+  }
+}
+
+template <class Coder>
+void SubtreeCoder::CodePrecision(Coder& coder, SubtreeTruth* truth) {
+  uint32_t shift = parameters_.schedule.LatticeShift(layer_);
+  precision_.tangential = shift;
+  if (layer_ >= parameters_.schedule.split_layers()) {
+    precision_.normal = std::min(precision_.normal, shift);
+    return;
+  }
+  uint32_t finer = 0;
+  if constexpr (Coder::kEncoding) {
+    double sum = 0;
+    for (uint32_t set : open_) sum = sum + truth->SplitError(set);
+    double error = sum / static_cast<double>(positions_.size());
+    while (finer < shift && static_cast<double>(uint64_t{1} << (shift - finer)) > error) ++finer;
+  }
+  // Once a layer: not worth a model.
+  uint32_t coded = 0;
+  for (uint32_t bit = 0; bit < 5; ++bit) {
+    coded |= static_cast<uint32_t>(coder.Code(32768, (finer >> bit & 1) != 0)) << bit;
+  }
+  precision_.normal = shift - std::min(coded, shift);
+}
+
+template <class Coder>
+void SubtreeCoder::CodeLatticeRefinement(Coder& coder, SubtreeTruth* truth, CostMeters* meters) {
+  coder.SetMeter(&meters->refinement);
+  for (uint32_t vertex = 0; vertex < positions_.size(); ++vertex) {
+    if (!lattice_coder_.IsCoarser(vertex, precision_)) continue;
+    Int3 position;
+    if constexpr (Coder::kEncoding) position = truth->VertexPosition(vertex);
+    positions_[vertex] = lattice_coder_.Refine(coder, vertex, positions_[vertex],
+                                               ShapeAround(vertex), precision_, position);
+  }
 }
 
 void SubtreeCoder::GroupChildren(uint32_t count) {

@@ -14,7 +14,9 @@
 #include "engine/connectivity/face_exceptions.h"
 #include "engine/connectivity/split_coder.h"
 #include "engine/geometry/cylinder_cell.h"
+#include "engine/geometry/lattice_coder.h"
 #include "engine/geometry/offset_coder.h"
+#include "engine/geometry/ring_shape.h"
 #include "engine/mesh/types.h"
 
 namespace folprom {
@@ -39,6 +41,8 @@ class SubtreeTruth {
   virtual void EndBinarySplit(uint32_t second_set) = 0;
   /// Position of the only vertex of a set.
   virtual Int3 VertexPosition(uint32_t set) const = 0;
+  /// Distance, lattice units, that the split of a set takes away.
+  virtual double SplitError(uint32_t set) const = 0;
   virtual SplitOracle* oracle() = 0;
   /// Final faces, in terms of `complex`, for the exceptions.
   virtual FaceCensus CountFaces(const Complex& complex) const = 0;
@@ -109,6 +113,15 @@ class SubtreeCoder {
   template <class Coder>
   void CodeChildren(Coder& coder, uint32_t set, uint32_t count, SubtreeTruth* truth,
                     CostMeters* meters);
+  /// The split of a set into itself and a new vertex on the lattice.
+  template <class Coder>
+  void CodeNewVertex(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters);
+  template <class Coder>
+  void CodePrecision(Coder& coder, SubtreeTruth* truth);
+  /// Brings every vertex to the precision of the layer.
+  template <class Coder>
+  void CodeLatticeRefinement(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
+  RingShape ShapeAround(uint32_t set);
   template <class Coder>
   void CodeBinarySplits(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters);
   template <class Coder>
@@ -136,6 +149,8 @@ class SubtreeCoder {
   Complex complex_;
   std::vector<Int3> positions_;
   std::vector<SetRecord> sets_;
+  LatticeCoder lattice_coder_;
+  LatticePrecision precision_;
   std::vector<CylinderCell> cells_;
   std::vector<uint32_t> cell_vertex_;
   std::vector<uint32_t> open_;

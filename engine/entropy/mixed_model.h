@@ -43,8 +43,8 @@ inline constexpr auto kRate = [] {
 }();
 }  // namespace detail
 
-/// N contexts and a mixer with `sets` weight vectors.
-template <size_t N>
+/// N contexts that learn, E predictions from outside, and a mixer with `sets` weight vectors.
+template <size_t N, size_t E = 0>
 class MixedModel {
  public:
   /// sizes[i]: number of values of context i. limit: a probability adapts at least by 1/limit
@@ -55,35 +55,40 @@ class MixedModel {
     weights_.assign(sets, Initial());
   }
 
+  /// predictions: ln(p / (1 - p)) in 1/256, p the probability of `true`; -2047 .. 2047.
   template <class Coder>
-  bool Code(Coder& coder, const std::array<uint32_t, N>& contexts, uint32_t set, bool bit) {
+  bool Code(Coder& coder, const std::array<uint32_t, N>& contexts, uint32_t set, bool bit,
+            const std::array<int32_t, E>& predictions = {}) {
     std::array<uint32_t*, N> state;
-    std::array<int32_t, N> input;
-    std::array<int32_t, N>& weight = weights_[set];
+    std::array<int32_t, N + E> input;
+    std::array<int32_t, N + E>& weight = weights_[set];
     int64_t sum = 0;
     for (size_t i = 0; i < N; ++i) {
       state[i] = &states_[i][contexts[i]];
       input[i] = detail::kStretch[*state[i] >> 20];
-      sum += static_cast<int64_t>(weight[i]) * input[i];
     }
+    for (size_t i = 0; i < E; ++i) input[N + i] = predictions[i];
+    for (size_t i = 0; i < N + E; ++i) sum += static_cast<int64_t>(weight[i]) * input[i];
     int64_t mixed = sum >> 16;
     if (mixed > 2047) mixed = 2047;
     if (mixed < -2047) mixed = -2047;
     int32_t probability = detail::kSquash[static_cast<size_t>(mixed + 2048)];
     bit = coder.Code(static_cast<uint32_t>(probability), bit);
     int32_t error = (bit ? 65536 : 0) - probability;
-    for (size_t i = 0; i < N; ++i) {
+    for (size_t i = 0; i < N + E; ++i) {
       weight[i] += static_cast<int32_t>((static_cast<int64_t>(input[i]) * error * kLearning) >> 20);
-      Update(state[i], bit);
     }
+    for (size_t i = 0; i < N; ++i) Update(state[i], bit);
     return bit;
   }
 
  private:
   static constexpr int kLearning = 12;
-  static std::array<int32_t, N> Initial() {
-    std::array<int32_t, N> weight;
-    weight.fill(static_cast<int32_t>(65536 * (N == 1 ? 1.0 : 1.3 / static_cast<double>(N))));
+  static std::array<int32_t, N + E> Initial() {
+    std::array<int32_t, N + E> weight;
+    const double whole = E > 0 ? 0.4 : (N == 1 ? 1.0 : 1.3);
+    weight.fill(static_cast<int32_t>(65536 * whole / static_cast<double>(N)));
+    for (size_t i = 0; i < E; ++i) weight[N + i] = static_cast<int32_t>(65536 * 0.8 / static_cast<double>(E));
     return weight;
   }
   /// A state is a probability in its upper 22 bits and a count of decisions in its lower 10.
@@ -99,7 +104,7 @@ class MixedModel {
 
   uint32_t limit_;
   std::array<std::vector<uint32_t>, N> states_;
-  std::vector<std::array<int32_t, N>> weights_;
+  std::vector<std::array<int32_t, N + E>> weights_;
 };
 
 }  // namespace folprom

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "engine/entropy/fixed_math.h"
 
@@ -29,14 +31,14 @@ class LloydBuilder {
                double longest_side, const CodecSettings& settings)
       : settings_(settings), scale_(longest_side > 0 ? kPaperRange / longest_side : 1) {
     points_.reserve(positions.size());
-    tree_.order_.reserve(positions.size());
+    order_.reserve(positions.size());
     for (uint32_t i = 0; i < positions.size(); ++i) {
       const Int3& p = positions[i];
       points_.push_back({scale_ * Eigen::Vector3d(p.x, p.y, p.z), surface.normals[i],
                          surface.curvature[i], surface.areas[i]});
       box_lo_ = {std::min(box_lo_.x, p.x), std::min(box_lo_.y, p.y), std::min(box_lo_.z, p.z)};
       box_hi_ = {std::max(box_hi_.x, p.x), std::max(box_hi_.y, p.y), std::max(box_hi_.z, p.z)};
-      tree_.order_.push_back(i);
+      order_.push_back(i);
     }
     scratch_points_.resize(points_.size());
     scratch_order_.resize(points_.size());
@@ -45,20 +47,20 @@ class LloydBuilder {
   }
 
   SetTree Build() {
-    tree_.nodes_.reserve(points_.size() + points_.size() / 2);
-    tree_.nodes_.push_back({0, static_cast<uint32_t>(points_.size()), 0, 0, {}});
+    nodes_.reserve(points_.size() + points_.size() / 2);
+    nodes_.push_back({0, static_cast<uint32_t>(points_.size()), 0, 0, {}, 0, 0});
     std::vector<std::pair<uint32_t, uint32_t>> pending{{0, 0}};  // node, depth
     while (!pending.empty()) {
       auto [index, depth] = pending.back();
       pending.pop_back();
-      tree_.nodes_[index].representative = Representative(index);
-      tree_.nodes_[index].distortion = Distortion(tree_.nodes_[index]);
+      nodes_[index].representative = Representative(index);
+      nodes_[index].distortion = Distortion(nodes_[index]);
       uint32_t first = SplitNode(index, depth);
-      for (uint32_t i = tree_.nodes_[index].child_count; i-- > 0;) {
+      for (uint32_t i = nodes_[index].child_count; i-- > 0;) {
         pending.push_back({first + i, depth + 1});
       }
     }
-    return std::move(tree_);
+    return {std::move(nodes_), std::move(order_)};
   }
 
  private:
@@ -108,12 +110,12 @@ class LloydBuilder {
   }
 
   Int3 Representative(uint32_t index) const {
-    const SetTree::Node& node = tree_.nodes_[index];
+    const SetTree::Node& node = nodes_[index];
     uint32_t count = node.end - node.begin;
-    if (count == 1) return positions_[tree_.order_[node.begin]];
+    if (count == 1) return positions_[order_[node.begin]];
     int64_t sum[3] = {0, 0, 0};
     for (uint32_t i = node.begin; i < node.end; ++i) {
-      const Int3& p = positions_[tree_.order_[i]];
+      const Int3& p = positions_[order_[i]];
       sum[0] += p.x;
       sum[1] += p.y;
       sum[2] += p.z;
@@ -125,7 +127,7 @@ class LloydBuilder {
     if (settings_.representative == Representative::kCentre) return middle;
     if (settings_.representative == Representative::kQuadric) return QuadricPoint(node, middle);
     uint32_t chosen = CurvedVertex(node);
-    return chosen == node.end ? middle : positions_[tree_.order_[chosen]];
+    return chosen == node.end ? middle : positions_[order_[chosen]];
   }
 
   /// The point nearest to the tangent planes of the members, in the least-squares sense, with a pull
@@ -199,8 +201,8 @@ class LloydBuilder {
 
   /// Makes the children of a node; returns the first.
   uint32_t SplitNode(uint32_t index, uint32_t depth) {
-    uint32_t begin = tree_.nodes_[index].begin, end = tree_.nodes_[index].end;
-    uint32_t count = end - begin, first = static_cast<uint32_t>(tree_.nodes_.size());
+    uint32_t begin = nodes_[index].begin, end = nodes_[index].end;
+    uint32_t count = end - begin, first = static_cast<uint32_t>(nodes_.size());
     if (count == 1) return first;
     uint32_t children = std::min(count, settings_.children);
     std::array<uint32_t, kMostChildren + 1> bounds{};
@@ -213,9 +215,9 @@ class LloydBuilder {
     } else {
       Reorder(begin, end, children, &bounds);
     }
-    tree_.nodes_[index].first_child = first;
-    tree_.nodes_[index].child_count = children;
-    for (uint32_t i = 0; i < children; ++i) tree_.nodes_.push_back({bounds[i], bounds[i + 1], 0, 0, {}});
+    nodes_[index].first_child = first;
+    nodes_[index].child_count = children;
+    for (uint32_t i = 0; i < children; ++i) nodes_.push_back({bounds[i], bounds[i + 1], 0, 0, {}, 0, 0});
     return first;
   }
 
@@ -326,14 +328,14 @@ class LloydBuilder {
       for (uint32_t i = begin; i < end; ++i) {
         if (cluster_[i] != c) continue;
         scratch_points_[next] = points_[i];
-        scratch_order_[next++] = tree_.order_[i];
+        scratch_order_[next++] = order_[i];
       }
     }
     (*bounds)[children] = end;
     std::copy(scratch_points_.begin() + begin, scratch_points_.begin() + end,
               points_.begin() + begin);
     std::copy(scratch_order_.begin() + begin, scratch_order_.begin() + end,
-              tree_.order_.begin() + begin);
+              order_.begin() + begin);
   }
 
   const CodecSettings& settings_;
@@ -344,7 +346,8 @@ class LloydBuilder {
   std::vector<Point> points_, scratch_points_;
   std::vector<uint32_t> scratch_order_;
   std::vector<uint8_t> cluster_;
-  SetTree tree_;
+  std::vector<SetTree::Node> nodes_;
+  std::vector<uint32_t> order_;
 };
 
 SetTree BuildLloydTree(std::span<const Int3> positions, const SurfaceAttributes& surface,

@@ -55,15 +55,28 @@ TEST_F(Config, PaperFileIsInTheFormThatTheProgramPrints) {
   EXPECT_EQ(FromFirstTable(FileText(kConfigs + "paper.toml")), printed.out);
 }
 
-TEST_F(Config, EveryKeyStandsInBothFilesAndNoOther) {
+TEST_F(Config, QuadricFileIsInTheFormThatTheProgramPrints) {
+  const Outcome printed = Effective({"--config", kConfigs + "quadric.toml"});
+  ASSERT_EQ(printed.exit_code, 0) << printed.err;
+  EXPECT_EQ(FromFirstTable(FileText(kConfigs + "quadric.toml")), printed.out);
+}
+
+TEST_F(Config, LatticeOffsetsAskForTheQuadricHierarchy) {
+  const Outcome refused = Effective({"--config", Write("[codec]\noffsets = \"lattice\"\n")});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("hierarchy = \"quadric\""), std::string::npos) << refused.err;
+}
+
+TEST_F(Config, EveryKeyStandsInEveryFileAndNoOther) {
   const auto known = KeysOf(toml::parse(Effective({}).out));
   EXPECT_GT(known.size(), 20u);
   EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + "default.toml")), known);
   EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + "paper.toml")), known);
+  EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + "quadric.toml")), known);
 }
 
 TEST_F(Config, EveryKeyOfTheFilesHasItsComment) {
-  for (const char* name : {"default.toml", "paper.toml"}) {
+  for (const char* name : {"default.toml", "paper.toml", "quadric.toml"}) {
     const std::string text = FileText(kConfigs + name);
     for (const std::string& full_name : KeysOf(toml::parse(text))) {
       const std::string key = full_name.substr(full_name.find('.') + 1);

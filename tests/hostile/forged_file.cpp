@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/codec/layer_reader.h"
-#include "engine/codec/lloyd_truth.h"
+#include "engine/codec/tree_truth.h"
 #include "engine/codec/subtree_coder.h"
 #include "engine/entropy/bit_coder.h"
 #include "engine/hierarchy/lloyd_tree.h"
@@ -17,10 +17,11 @@ constexpr int32_t kSide = 1 << 13;
 /// Answers as the honest truth does, except for the number of copies of each face.
 class CopyingTruth final : public SubtreeTruth {
  public:
-  CopyingTruth(LloydTruth& honest, uint32_t copies) : honest_(honest), copies_(copies) {}
+  CopyingTruth(TreeTruth& honest, uint32_t copies) : honest_(honest), copies_(copies) {}
   Int3 RootRepresentative() const override { return honest_.RootRepresentative(); }
   uint32_t ChildCount(uint32_t set) const override { return honest_.ChildCount(set); }
   double Distortion(uint32_t set) const override { return honest_.Distortion(set); }
+  double SplitError(uint32_t) const override { return 0; }
   Int3 ChildRepresentative(uint32_t set, uint32_t child) const override {
     return honest_.ChildRepresentative(set, child);
   }
@@ -43,7 +44,7 @@ class CopyingTruth final : public SubtreeTruth {
   }
 
  private:
-  LloydTruth& honest_;
+  TreeTruth& honest_;
   uint32_t copies_;
 };
 
@@ -56,7 +57,7 @@ Bytes Forged(const std::vector<Int3>& positions, const std::vector<Face>& faces,
                                       parameters.settings.rounds_per_layer, 3, 2);
   SetTree tree = BuildLloydTree(positions, MeasureSurface(positions, faces, cross_faces, 0), kSide,
                                 parameters.settings);
-  LloydTruth honest(chunk, 0, tree);
+  TreeTruth honest(chunk, 0, tree);
   CopyingTruth truth(honest, copies);
   const auto count = static_cast<uint32_t>(positions.size());
   SubtreeCoder coder(parameters, {count, {0, 0, 0}, parameters.extent, false});

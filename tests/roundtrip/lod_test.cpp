@@ -167,6 +167,14 @@ TEST_F(LodTest, WithLeavesRefinedAtOnceIsTheImageOfItsSets) {
   ExpectLodsAreImages();
 }
 
+TEST_F(LodTest, OfTheQuadricHierarchyIsTheImageOfItsSets) {
+  CodecSettings settings;
+  settings.hierarchy = Hierarchy::kQuadric;
+  settings.offsets = Offsets::kLattice;
+  Code(BumpySphere(1500, true, 4), 200, settings);
+  ExpectLodsAreImages();
+}
+
 TEST_F(LodTest, OfDenseRandomFacesIsTheImageOfItsSets) {
   Code(RandomFaces(60, 2000, 5), 10);
   EXPECT_GE(replay_->subtrees(), 6u);

@@ -48,6 +48,9 @@ std::vector<Case> EverySetting() {
           for (double value : values) {
             Case one{NameOf(key.name, value), {}};
             one.settings.*member = static_cast<Value>(value);
+            if (one.settings.offsets == Offsets::kLattice) {
+              one.settings.hierarchy = Hierarchy::kQuadric;
+            }
             cases.push_back(one);
           }
         },
@@ -69,6 +72,14 @@ std::vector<Case> Combinations() {
   off.split_first = off.pivot_order = off.nearer_child = false;
   off.representative = Representative::kCentre;
   cases.push_back({"EveryTechniqueOff", off});
+  for (double first : {0.0, 0.3, 1.0}) {
+    CodecSettings settings;
+    settings.hierarchy = Hierarchy::kQuadric;
+    settings.offsets = Offsets::kLattice;
+    settings.distortion_first = first;
+    settings.layers_per_octave = first == 0 ? 1 : 4;
+    cases.push_back({NameOf("QuadricLattice", first), settings});
+  }
   CodecSettings coarse;
   coarse.quantisation_levels = 2;
   coarse.children = 8;

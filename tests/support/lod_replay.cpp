@@ -8,11 +8,9 @@
 #include "engine/codec/border_seam_truth.h"
 #include "engine/codec/encode_subtree.h"
 #include "engine/codec/layer_reader.h"
-#include "engine/codec/lloyd_truth.h"
+#include "engine/codec/tree_truth.h"
 #include "engine/encode_job.h"
 #include "engine/folp_file.h"
-#include "engine/hierarchy/lloyd_tree.h"
-#include "engine/hierarchy/surface.h"
 
 namespace folprom::support {
 namespace {
@@ -32,19 +30,11 @@ struct Subtree {
   Subtree(const EncodeJob& job, const FolpFile& file, uint32_t number, bool has_border)
       : chunk(job.scan().Load(number)),
         whole(EncodeSubtree(chunk, job.scan().summary(number), number, file.parameters())),
-        tree(Tree(chunk, file.parameters(), number)),
+        tree(BuildSetTree(chunk, number, file.parameters())),
         truth(chunk, number, tree),
         coder(file.parameters(), Shape(job.scan().summary(number))),
         reader(file.container(), file.parameters(), number, has_border) {}
 
-  static SetTree Tree(const SubtreeChunk& chunk, const CodecParameters& parameters,
-                      uint32_t number) {
-    SurfaceAttributes surface =
-        MeasureSurface(chunk.positions, chunk.faces, chunk.cross_faces, number);
-    const Int3& extent = parameters.extent;
-    return BuildLloydTree(chunk.positions, surface, std::max({extent.x, extent.y, extent.z}),
-                          parameters.settings);
-  }
   static SubtreeShape Shape(const SubtreeSummary& summary) {
     return {summary.vertices, summary.box_lo, summary.box_hi, !summary.neighbours.empty()};
   }
@@ -52,7 +42,7 @@ struct Subtree {
   SubtreeChunk chunk;
   EncodedSubtree whole;
   SetTree tree;
-  LloydTruth truth;
+  TreeTruth truth;
   SubtreeCoder coder;
   BitEncoder bits;
   SubtreeReader reader;

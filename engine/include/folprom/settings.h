@@ -9,12 +9,14 @@
 namespace folprom {
 
 enum class Hierarchy : uint8_t {
-  kLloyd = 0  ///< top-down vertex set split, section 2.1
+  kLloyd = 0,   ///< top-down vertex set split, section 2.1
+  kQuadric = 1  ///< bottom-up contraction by quadric error; two children a split
 };
 
 enum class Offsets : uint8_t {
   kCylindrical = 0,  ///< rho, theta, z in the least-squares frame, section 2.2
-  kCartesian = 1     ///< x, y, z in the same frame, with which the paper compares
+  kCartesian = 1,    ///< x, y, z in the same frame, with which the paper compares
+  kLattice = 2       ///< exact integers, predicted from the ring; needs Hierarchy::kQuadric
 };
 
 enum class Representative : uint8_t {
@@ -33,6 +35,9 @@ struct CodecSettings {
   /// Subtrees are cut by the metric of section 2.1. false: by Euclidean distance, which makes them
   /// compact: on dragon half the cross faces, 60 % fewer bits for seams, 0.7 % fewer in all.
   bool subtree_normals = false;
+
+  // Hierarchy (quadric)
+  double length_weight = 0.03;  ///< of area x length^2 beside the quadric error; 0 .. 10
 
   // Hierarchy (section 2.1)
   uint32_t children = 4;             ///< K, children of a split; 2 .. 8

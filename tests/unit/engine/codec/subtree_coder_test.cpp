@@ -81,8 +81,8 @@ CodecParameters ParametersFor(uint32_t children, bool split_first) {
   const uint32_t per_octave = parameters.settings.layers_per_octave;
   parameters.schedule =
       LayerSchedule(parameters.extent, per_octave, parameters.settings.rounds_per_layer,
-                    SplitLayersFor(parameters.extent, 500, per_octave),
-                    RefineLayersFor(parameters.extent, 500, per_octave));
+                    SplitLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets),
+                    RefineLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets));
   return parameters;
 }
 

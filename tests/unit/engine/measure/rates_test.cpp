@@ -29,7 +29,7 @@ class Rates : public testing::Test {
 };
 
 TEST_F(Rates, ErrorFallsAsTheRateRises) {
-  const RateCurve curve = Run({2, 8, 1000});
+  const RateCurve curve = Run({3, 8, 1000});
   ASSERT_EQ(curve.points.size(), 3u);
   for (size_t i = 0; i < 3; ++i) {
     const RatePoint& point = curve.points[i];

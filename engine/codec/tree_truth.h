@@ -13,9 +13,9 @@
 namespace folprom {
 
 /// Answers a SubtreeCoder<BitEncoder>. Keeps references to the chunk and the tree.
-class LloydTruth final : public SubtreeTruth {
+class TreeTruth final : public SubtreeTruth {
  public:
-  LloydTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree);
+  TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree);
 
   Int3 RootRepresentative() const override { return tree_.node(0).representative; }
   uint32_t ChildCount(uint32_t set) const override;
@@ -30,6 +30,9 @@ class LloydTruth final : public SubtreeTruth {
   bool SecondTouchesBorder() const override { return second_border_; }
   void EndBinarySplit(uint32_t second_set) override;
   Int3 VertexPosition(uint32_t set) const override;
+  double SplitError(uint32_t set) const override {
+    return tree_.node(node_of_set_[set]).error;
+  }
   SplitOracle* oracle() override { return &oracle_; }
   FaceCensus CountFaces(const Complex& complex) const override;
 

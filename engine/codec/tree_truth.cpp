@@ -1,4 +1,4 @@
-#include "engine/codec/lloyd_truth.h"
+#include "engine/codec/tree_truth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ std::vector<Face> InnerTriples(const SubtreeChunk& chunk, uint32_t subtree) {
 
 }  // namespace
 
-LloydTruth::LloydTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree)
+TreeTruth::TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree)
     : chunk_(chunk),
       tree_(tree),
       real_faces_(chunk.faces.size()),
@@ -42,20 +42,20 @@ LloydTruth::LloydTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTre
   node_of_set_.push_back(0);
 }
 
-uint32_t LloydTruth::ChildCount(uint32_t set) const {
+uint32_t TreeTruth::ChildCount(uint32_t set) const {
   return std::max(tree_.node(node_of_set_[set]).child_count, 1u);
 }
 
-Int3 LloydTruth::ChildRepresentative(uint32_t set, uint32_t child) const {
+Int3 TreeTruth::ChildRepresentative(uint32_t set, uint32_t child) const {
   return tree_.node(tree_.node(node_of_set_[set]).first_child + child).representative;
 }
 
-void LloydTruth::BeginSplit(uint32_t set, std::span<const uint32_t> order) {
+void TreeTruth::BeginSplit(uint32_t set, std::span<const uint32_t> order) {
   parent_ = node_of_set_[set];
   order_.assign(order.begin(), order.end());
 }
 
-uint64_t LloydTruth::BorderVertices(std::span<const uint32_t> places) const {
+uint64_t TreeTruth::BorderVertices(std::span<const uint32_t> places) const {
   uint64_t count = 0;
   for (uint32_t place : places) {
     const SetTree::Node& node = tree_.node(tree_.node(parent_).first_child + order_[place]);
@@ -64,7 +64,7 @@ uint64_t LloydTruth::BorderVertices(std::span<const uint32_t> places) const {
   return count;
 }
 
-void LloydTruth::BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,
+void TreeTruth::BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,
                                   std::span<const uint32_t> second) {
   first_set_ = set;
   first_places_.assign(first.begin(), first.end());
@@ -87,22 +87,22 @@ void LloydTruth::BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,
   oracle_.Scan(set, moved_, second_is_smaller);
 }
 
-void LloydTruth::EndBinarySplit(uint32_t second_set) {
+void TreeTruth::EndBinarySplit(uint32_t second_set) {
   node_of_set_.resize(std::max<size_t>(node_of_set_.size(), second_set + size_t{1}));
   uint32_t first_child = tree_.node(parent_).first_child;
   if (first_places_.size() == 1) node_of_set_[first_set_] = first_child + order_[first_places_[0]];
   if (second_places_.size() == 1) node_of_set_[second_set] = first_child + order_[second_places_[0]];
 }
 
-Int3 LloydTruth::VertexPosition(uint32_t set) const {
+Int3 TreeTruth::VertexPosition(uint32_t set) const {
   return tree_.node(node_of_set_[set]).representative;
 }
 
-FaceCensus LloydTruth::CountFaces(const Complex& complex) const {
+FaceCensus TreeTruth::CountFaces(const Complex& complex) const {
   return TakeCensus(complex, oracle_, real_faces_);
 }
 
-double LloydTruth::LargestDistance(const std::vector<Int3>& positions) const {
+double TreeTruth::LargestDistance(const std::vector<Int3>& positions) const {
   double largest2 = 0;
   for (uint32_t v = 0; v < chunk_.positions.size(); ++v) {
     Vector3 d = Difference(chunk_.positions[v], positions[oracle_.VertexOf(v)]);
@@ -111,7 +111,7 @@ double LloydTruth::LargestDistance(const std::vector<Int3>& positions) const {
   return std::sqrt(largest2);
 }
 
-std::vector<uint32_t> LloydTruth::FinalVertices() const {
+std::vector<uint32_t> TreeTruth::FinalVertices() const {
   std::vector<uint32_t> result(chunk_.positions.size());
   for (uint32_t v = 0; v < result.size(); ++v) result[v] = oracle_.VertexOf(v);
   return result;

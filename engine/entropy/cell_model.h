@@ -1,0 +1,188 @@
+// Integers near a prediction that is a real number: each decision halves the interval that is left,
+// and a density around the prediction says how likely each half is, beside contexts that learn.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/entropy/axis_density.h"
+#include "engine/entropy/mixed_model.h"
+
+namespace folprom {
+
+namespace detail {
+
+/// 2^x for |x| <= 60, relative error below 1e-4.
+inline double FastExp2(double x) {
+  double whole = std::floor(x), f = x - whole;
+  double value = 1 + f * (0.69314718 + f * (0.24022651 + f * (0.05550410 + f * (0.00961812 +
+                 f * 0.00133336))));
+  return value * std::bit_cast<double>(static_cast<uint64_t>(1023 + static_cast<int64_t>(whole)) << 52);
+}
+
+/// ln(x) for normal x > 0, absolute error below 1e-4.
+inline double FastLog(double x) {
+  uint64_t bits = std::bit_cast<uint64_t>(x);
+  double exponent = static_cast<double>(static_cast<int64_t>(bits >> 52) - 1023);
+  double m = std::bit_cast<double>((bits & 0xfffffffffffffULL) | 0x3ff0000000000000ULL);
+  double y = (m - 1) / (m + 1), s = y * y;
+  return exponent * 0.69314718 + 2 * y * (1 + s * (0.33333333 + s * (0.2 + s * 0.14285714)));
+}
+
+/// Logistic distribution function.
+inline double Logistic(double t) {
+  double clamped = t < -40 ? -40 : (t > 40 ? 40 : t);
+  return 1 / (1 + FastExp2(-1.44269504 * clamped));
+}
+
+}  // namespace detail
+
+/// A prediction in units of cells: cell k covers [k, k + 1).
+struct CellPrediction {
+  double mean = 0;
+  double scale = 1;  ///< of a logistic density, > 0
+};
+
+/// A density on the line of which cell k covers [k, k + 1) * cell - origin.
+struct CellDensity {
+  const AxisDensity* axis = nullptr;
+  double origin = 0;
+  double cell = 1;
+};
+
+/// Mean size of what predictions miss by, per context, in a unit that the caller chooses.
+class ScaleTable {
+ public:
+  explicit ScaleTable(uint32_t contexts, double first) : entries_(contexts, {first, 0}) {}
+  double Of(uint32_t context) const { return entries_[context].mean; }
+  void Learn(uint32_t context, double size) {
+    Entry& entry = entries_[context];
+    if (entry.count < 200) entry.count = entry.count + 1;
+    entry.mean = entry.mean + (size - entry.mean) / (entry.count + 3);
+  }
+
+ private:
+  struct Entry {
+    double mean;
+    double count;
+  };
+  std::vector<Entry> entries_;
+};
+
+/// N contexts, P predictions and, where M is 1, a density that the caller measured.
+template <size_t N, size_t P, size_t M = 0>
+class CellModel {
+ public:
+  /// Decisions that a context tells apart: side, octave of the distance, first halving inside it.
+  static constexpr uint32_t kOctaves = 10;
+  static constexpr uint32_t kSlots = 1 + 2 * kOctaves + 2 * kOctaves;
+
+  explicit CellModel(std::array<uint32_t, N> sizes) : decisions_(Scaled(sizes), kSlots) {}
+
+  /// Codes value in [lo, hi]. Decisions that the range makes certain cost nothing.
+  template <class Coder>
+  int32_t Code(Coder& coder, const std::array<uint32_t, N>& contexts,
+               const std::array<CellPrediction, P>& predictions, int32_t lo, int32_t hi,
+               int32_t value, const CellDensity& density = {}) {
+    int64_t a = lo, c = int64_t{hi} + 1;
+    double middle = std::clamp(predictions[0].mean, static_cast<double>(lo), static_cast<double>(hi));
+    int64_t base = static_cast<int64_t>(middle);
+    Interval interval{a, c, {}, {}, nullptr};
+    interval.density = &density;
+    interval.below = Tails(predictions, density, a);
+    interval.above = Tails(predictions, density, c);
+    bool upper = Decide(coder, contexts, predictions, 0, base + 1, value, &interval);
+    uint32_t octave = 0;
+    int64_t step = 1;
+    // Groups of 1, 2, 4 .. cells away from the base.
+    while (interval.c - interval.a > 1) {
+      int64_t at = upper ? interval.a + step : interval.c - step;
+      if (at <= interval.a || at >= interval.c) break;
+      uint32_t slot = 1 + (upper ? kOctaves : 0) + std::min(octave, kOctaves - 1);
+      bool further = Decide(coder, contexts, predictions, slot, at, value, &interval) == upper;
+      if (!further) break;
+      ++octave;
+      step = step * 2;
+    }
+    uint32_t slot = 1 + 2 * kOctaves + (upper ? kOctaves : 0) + std::min(octave, kOctaves - 1);
+    while (interval.c - interval.a > 1) {
+      int64_t at = interval.a + (interval.c - interval.a) / 2;
+      Decide(coder, contexts, predictions, slot, at, value, &interval);
+      slot = kSlots - 1;
+    }
+    return static_cast<int32_t>(interval.a);
+  }
+
+ private:
+  /// What is left: cells [a, c), and the distribution functions there, from the left and from the
+  /// right, since differences far out need the smaller of the two.
+  struct Ends {
+    double left, right;
+  };
+  struct Interval {
+    int64_t a, c;
+    std::array<Ends, P + M> below, above;
+    const CellDensity* density;
+  };
+
+  static std::array<uint32_t, N> Scaled(std::array<uint32_t, N> sizes) {
+    for (uint32_t& size : sizes) size *= kSlots;
+    return sizes;
+  }
+  static Ends Tail(const CellPrediction& prediction, int64_t at) {
+    double t = (static_cast<double>(at) - prediction.mean) / prediction.scale;
+    return {detail::Logistic(t), detail::Logistic(-t)};
+  }
+
+  static std::array<Ends, P + M> Tails(const std::array<CellPrediction, P>& predictions,
+                                       const CellDensity& density, int64_t at) {
+    std::array<Ends, P + M> ends;
+    for (size_t p = 0; p < P; ++p) ends[p] = Tail(predictions[p], at);
+    if constexpr (M > 0) {
+      double left = density.axis->Below(density.cell * static_cast<double>(at) - density.origin);
+      ends[P] = {left, 1 - left};
+    }
+    return ends;
+  }
+
+  /// Is value >= at; narrows the interval.
+  template <class Coder>
+  bool Decide(Coder& coder, const std::array<uint32_t, N>& contexts,
+              const std::array<CellPrediction, P>& predictions, uint32_t slot, int64_t at,
+              int32_t value, Interval* interval) {
+    if (at <= interval->a) return true;
+    if (at >= interval->c) return false;
+    std::array<Ends, P + M> here = Tails(predictions, *interval->density, at);
+    std::array<int32_t, P + M> inputs;
+    for (size_t p = 0; p < P + M; ++p) {
+      bool leftward = here[p].left < here[p].right;
+      double low = leftward ? here[p].left - interval->below[p].left
+                            : interval->below[p].right - here[p].right;
+      double high = leftward ? interval->above[p].left - here[p].left
+                             : here[p].right - interval->above[p].right;
+      constexpr double kLeast = 1e-17;
+      double odds = (high > kLeast ? high : kLeast) / (low > kLeast ? low : kLeast);
+      inputs[p] = static_cast<int32_t>(std::clamp(256 * detail::FastLog(odds), -2047.0, 2047.0));
+    }
+    std::array<uint32_t, N> scaled;
+    for (size_t i = 0; i < N; ++i) scaled[i] = contexts[i] * kSlots + slot;
+    bool upper = decisions_.Code(coder, scaled, slot, value >= at, inputs);
+    if (upper) {
+      interval->a = at;
+      interval->below = here;
+    } else {
+      interval->c = at;
+      interval->above = here;
+    }
+    return upper;
+  }
+
+  MixedModel<N, P + M> decisions_;
+};
+
+}  // namespace folprom

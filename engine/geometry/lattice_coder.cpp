@@ -1,0 +1,207 @@
+#include "engine/geometry/lattice_coder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/entropy/bit_coder.h"
+
+namespace folprom {
+namespace {
+
+int32_t& At(Int3& p, uint32_t axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+int32_t At(const Int3& p, uint32_t axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+
+/// Place of the covariance of axes a and b in RingShape::covariance.
+double Covariance(const RingShape& ring, uint32_t a, uint32_t b) {
+  constexpr uint32_t kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  return ring.covariance[kPlace[a][b]];
+}
+
+/// Number of bounds, ascending, that the value reaches.
+template <size_t K>
+uint32_t Bucket(double value, const std::array<double, K>& bounds) {
+  uint32_t bucket = 0;
+  while (bucket < K && value >= bounds[bucket]) ++bucket;
+  return bucket;
+}
+
+/// log2 in half octaves around 1, 0 .. 15.
+uint32_t OctaveBucket(double value) {
+  double halves = value > 0 ? 2 * 1.44269504 * detail::FastLog(value) : -100;
+  return static_cast<uint32_t>(std::clamp(halves + 6, 0.0, 15.0));
+}
+
+constexpr std::array<double, 8> kSideBounds{-1.2, -0.8, -0.45, -0.15, 0.15, 0.45, 0.8, 1.2};
+constexpr std::array<double, 4> kLeanBounds{-0.3, -0.1, 0.1, 0.3};
+constexpr std::array<double, 5> kEccentricityBounds{0.06, 0.12, 0.2, 0.3, 0.45};
+
+uint32_t CountBucket(uint32_t count) { return count < 4 ? 0 : (count > 9 ? 7 : count - 3); }
+
+/// What the new vertex's offset along an axis may follow, in spacings.
+std::array<double, 5> Features(const RingShape& ring, uint32_t axis) {
+  double inverse = 1 / ring.spacing;
+  return {ring.mean[axis] * inverse, ring.direction[axis] * inverse, ring.reach[axis] * inverse,
+          ring.area_centre[axis] * inverse, ring.rim_centre[axis] * inverse};
+}
+
+/// A logistic density of scale s misses by 1.386 s on average.
+constexpr double kScalePerMiss = 0.7213;
+
+}  // namespace
+
+LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi)
+    : lo_{lo.x, lo.y, lo.z},
+      hi_{hi.x, hi.y, hi.z},
+      tangential_({2 * 6 * 8, 9 * 9 * 2, 2 * 16}),
+      normal_({16 * 4, 16 * 6}),
+      tangential_fit_(8, OnlineRegression<5>({2, 0, 0, 0, 0})),
+      tangential_scale_(2 * 2 * 8 * 6, 1),
+      normal_scale_(2 * 16, 1),
+      refine_({3 * 12, 16}) {}
+
+int32_t LatticeCoder::Centre(uint32_t axis, int32_t cell, uint32_t shift) const {
+  int64_t begin = int64_t{cell} << shift;
+  int64_t centre = begin + (shift > 0 ? int64_t{1} << (shift - 1) : 0);
+  return static_cast<int32_t>(std::clamp<int64_t>(centre, lo_[axis], hi_[axis]));
+}
+
+template <class Coder>
+Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
+                           LatticePrecision precision, const Int3& truth,
+                           uint64_t* tangential_meter, uint64_t* normal_meter) {
+  Int3 result;
+  Shifts shifts;
+  uint32_t count = CountBucket(ring.count);
+  double inverse = 1 / ring.spacing;
+  double off_centre = std::sqrt(Dot(ring.mean, ring.mean)) * inverse;
+  uint32_t eccentricity = Bucket(off_centre, kEccentricityBounds);
+  Vector3 offset{0, 0, 0};
+  double miss_before = 0, variance_before = 1;
+  Vector3 ahead;
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    ahead[axis] = tangential_fit_[count].Predict(Features(ring, axis)) * ring.spacing;
+  }
+  density_.Prepare(ring, ahead);
+  for (uint32_t step = 0; step < 3; ++step) {
+    coder.SetMeter(step < 2 ? tangential_meter : normal_meter);
+    uint32_t axis = (ring.dominant + 1 + step) % 3;
+    uint32_t shift = step < 2 ? precision.tangential : precision.normal;
+    shifts[axis] = static_cast<uint8_t>(shift);
+    double cell = static_cast<double>(uint64_t{1} << shift);
+    double origin = static_cast<double>(At(old, axis)) + 0.5;
+    int32_t lo = lo_[axis] >> shift, hi = hi_[axis] >> shift, value = At(truth, axis) >> shift;
+    std::array<CellPrediction, 2> predictions;
+    if (step < 2) {
+      uint32_t first = (ring.dominant + 1) % 3;
+      double variance = Covariance(ring, axis, axis), slope = 0;
+      if (step == 1) {
+        slope = Covariance(ring, first, axis) / variance_before;
+        variance = variance - slope * Covariance(ring, first, axis);
+      }
+      double floor = 0.02 * ring.spacing * ring.spacing;
+      if (!(variance > floor)) variance = floor;
+      if (step == 0) variance_before = variance;
+      double width = std::sqrt(variance);
+      double straight = ahead[axis];
+      if (step == 0) {
+        density_.First(axis, &axis_density_);
+      } else {
+        density_.Second(axis, first, offset[first], &axis_density_);
+      }
+      double far = straight + slope * miss_before;
+      double near = ring.mean[axis] + (step == 1 ? slope * (offset[first] - ring.mean[first]) : 0);
+      uint32_t place = (step * 8 + count) * 6 + eccentricity;
+      std::array<double, 2> means{far, near};
+      for (uint32_t p = 0; p < 2; ++p) {
+        double scale = kScalePerMiss * tangential_scale_.Of(place * 2 + p) * width / cell;
+        predictions[p] = {(origin + means[p]) / cell, std::max(scale, 0.05)};
+      }
+      uint32_t lean = Bucket(ring.mean[axis] * inverse, kSideBounds);
+      uint32_t side = step == 0 ? 4 : Bucket(offset[first] * inverse, kSideBounds);
+      std::array<uint32_t, 3> contexts{(step * 6 + eccentricity) * 8 + count,
+                                       (lean * 9 + side) * 2 + step,
+                                       OctaveBucket(width / cell) * 2 + step};
+      value = tangential_.Code(coder, contexts, predictions, lo, hi, value,
+                               {&axis_density_, origin, cell});
+      double place_now = static_cast<double>(Centre(axis, value, shift)) + 0.5 - origin;
+      offset[axis] = place_now;
+      for (uint32_t p = 0; p < 2; ++p) {
+        tangential_scale_.Learn(place * 2 + p, std::fabs(place_now - means[p]) / width);
+      }
+      if (step == 0) miss_before = place_now - straight;
+      tangential_fit_[count].Learn(Features(ring, axis), place_now * inverse);
+      if (step == 1) density_.Learn(place_now);
+    } else {
+      double steep = std::fabs(ring.normal[axis]);
+      double bent = ring.MeetQuadric(offset);
+      uint32_t i = (axis + 1) % 3, j = (axis + 2) % 3;
+      double flat = -(ring.normal[i] * offset[i] + ring.normal[j] * offset[j]) / ring.normal[axis];
+      double width = (ring.fit_error + 0.1 * ring.height_range) / steep + 0.25 * cell;
+      uint32_t width_bucket = OctaveBucket(width / cell);
+      std::array<double, 2> means{bent, flat};
+      for (uint32_t p = 0; p < 2; ++p) {
+        double scale = kScalePerMiss * normal_scale_.Of(width_bucket * 2 + p) * width / cell;
+        predictions[p] = {(origin + means[p]) / cell, std::max(scale, 0.05)};
+      }
+      uint32_t tilt = steep < 0.7 ? 0 : (steep < 0.85 ? 1 : (steep < 0.95 ? 2 : 3));
+      std::array<uint32_t, 2> contexts{width_bucket * 4 + tilt,
+                                       OctaveBucket(2 * ring.fit_error / cell) * 6 + eccentricity};
+      value = normal_.Code(coder, contexts, predictions, lo, hi, value);
+      double place_now = static_cast<double>(Centre(axis, value, shift)) + 0.5 - origin;
+      for (uint32_t p = 0; p < 2; ++p) {
+        normal_scale_.Learn(width_bucket * 2 + p, std::fabs(place_now - means[p]) / width);
+      }
+    }
+    At(result, axis) = Centre(axis, value, shift);
+  }
+  shifts_.push_back(shifts);
+  return result;
+}
+
+bool LatticeCoder::IsCoarser(uint32_t vertex, LatticePrecision precision) const {
+  uint32_t least = std::min(precision.tangential, precision.normal);
+  const Shifts& shifts = shifts_[vertex];
+  return shifts[0] > least || shifts[1] > least || shifts[2] > least;
+}
+
+template <class Coder>
+Int3 LatticeCoder::Refine(Coder& coder, uint32_t vertex, const Int3& known, const RingShape& ring,
+                          LatticePrecision precision, const Int3& truth) {
+  Int3 result = known;
+  Shifts& shifts = shifts_[vertex];
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    bool is_normal = axis == ring.dominant;
+    uint32_t target = is_normal ? precision.normal : precision.tangential;
+    while (shifts[axis] > target) {
+      uint32_t shift = shifts[axis];
+      int32_t cell = At(result, axis) >> shift;
+      double size = static_cast<double>(uint64_t{1} << shift);
+      double lean = (is_normal ? Dot(ring.mean, ring.normal) / ring.normal[axis] : ring.mean[axis]) / size;
+      constexpr std::array<double, 10> kBounds{-8, -4, -2, -1, -0.3, 0.3, 1, 2, 4, 8};
+      uint32_t context = (is_normal ? 12u : 0u) + Bucket(lean, kBounds);
+      bool upper = false;
+      if constexpr (Coder::kEncoding) upper = (At(truth, axis) >> (shift - 1) & 1) != 0;
+      int32_t first = static_cast<int32_t>(int64_t{cell} << 1);
+      // A half outside the box is impossible.
+      if (int64_t{first + 1} << (shift - 1) > hi_[axis]) {
+        upper = false;
+      } else {
+        upper = refine_.Code(coder, {context, std::min(shift, 15u)}, 0, upper);
+      }
+      shifts[axis] = static_cast<uint8_t>(shift - 1);
+      At(result, axis) = Centre(axis, first + (upper ? 1 : 0), shift - 1);
+    }
+  }
+  return result;
+}
+
+#define FOLPROM_INSTANTIATE(Coder)                                                                 \
+  template Int3 LatticeCoder::CodeNew<Coder>(Coder&, const Int3&, const RingShape&,                \
+                                             LatticePrecision, const Int3&, uint64_t*, uint64_t*); \
+  template Int3 LatticeCoder::Refine<Coder>(Coder&, uint32_t, const Int3&, const RingShape&,       \
+                                            LatticePrecision, const Int3&);
+FOLPROM_INSTANTIATE(BitEncoder)
+FOLPROM_INSTANTIATE(BitDecoder)
+#undef FOLPROM_INSTANTIATE
+
+}  // namespace folprom

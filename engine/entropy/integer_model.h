@@ -48,8 +48,9 @@ class IntegerModel {
   int32_t CodeSigned(Coder& coder, const std::array<uint32_t, N>& contexts, int32_t value) {
     if (!Decide(coder, contexts, kZeroSlot, value != 0)) return 0;
     bool negative = Decide(coder, contexts, kSignSlot, value < 0);
-    uint32_t size = static_cast<uint32_t>(value < 0 ? -value : value) - 1;
-    size = CodeUnsigned(coder, contexts, size);
+    // A decoder may pass anything as `value`, so it is negated as an unsigned number.
+    uint32_t size = static_cast<uint32_t>(value);
+    size = CodeUnsigned(coder, contexts, (value < 0 ? 0U - size : size) - 1);
     if (size >= 0x7ffffffe) throw Failure(ErrorKind::kCorrupt, "coded integer out of range");
     int32_t result = static_cast<int32_t>(size) + 1;
     return negative ? -result : result;

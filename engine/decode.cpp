@@ -32,11 +32,13 @@ size_t LayersFor(const FolpFile& file, const DecodeOptions& options) {
     });
   }
   if (options.max_vertices > 0) {
-    return last_that([&](size_t layer) { return table.layers[layer].vertices <= options.max_vertices; });
+    return last_that(
+        [&](size_t layer) { return table.layers[layer].vertices <= options.max_vertices; });
   }
   if (options.max_error > 0) {
     for (size_t layer = 0; layer < present; ++layer) {
-      if (static_cast<double>(table.layers[layer].error_bound) <= options.max_error) return layer + 1;
+      if (static_cast<double>(table.layers[layer].error_bound) <= options.max_error)
+        return layer + 1;
     }
   }
   return present;
@@ -46,7 +48,8 @@ void CheckOptions(const DecodeOptions& options) {
   int bounds = (options.bits_per_vertex > 0) + (options.max_error > 0) +
                (options.max_vertices > 0) + (options.layers > 0);
   if (bounds > 1) {
-    throw Failure(ErrorKind::kUsage, "only one of rate, error, vertices and layers can bound a decoding");
+    throw Failure(ErrorKind::kUsage,
+                  "only one of rate, error, vertices and layers can bound a decoding");
   }
   for (int i = 0; options.use_region && i < 3; ++i) {
     if (!(options.region_lo[i] <= options.region_hi[i])) {

@@ -36,7 +36,8 @@ struct DecodeSelection {
 /// LOD of `layers` layers.
 std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, const double* lo,
                                     const double* hi);
-/// Subtrees that must be decoded for the seams of the wanted ones: these and their lower neighbours.
+/// Subtrees that must be decoded for the seams of the wanted ones: these and their lower
+/// neighbours.
 std::vector<uint32_t> NeededSubtrees(const io::FileTable& table,
                                      const std::vector<uint32_t>& wanted);
 /// Bytes of the file that the selection reads, the table included.

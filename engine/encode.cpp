@@ -1,7 +1,7 @@
 // Encoding, stage by stage.
 #include "engine/encode_job.h"
-#include "folprom/folprom.h"
 #include "engine/run_guarded.h"
+#include "folprom/folprom.h"
 
 namespace folprom {
 namespace {

@@ -85,14 +85,14 @@ Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, const EncodeO
   for (size_t i = 0; i < 3; ++i) {
     largest = std::max({largest, std::fabs(bounds.lo[i]), std::fabs(bounds.hi[i])});
   }
-  double inner = std::max(result.tolerance - StepOf(OutputType(type), largest) / 2,
-                          result.tolerance / 2);
+  double inner =
+      std::max(result.tolerance - StepOf(OutputType(type), largest) / 2, result.tolerance / 2);
   result.lattice.unit =
       options.codec.offsets == Offsets::kLattice ? 2 * inner : inner / kUnitsPerTolerance;
   if (!(longest / result.lattice.unit < kLatticeLimit - 2)) {
-    throw Failure(ErrorKind::kUsage,
-                  "tolerance " + Text(result.tolerance) + " is too fine for coordinates up to " +
-                      Text(largest) + " that span " + Text(longest));
+    throw Failure(ErrorKind::kUsage, "tolerance " + Text(result.tolerance) +
+                                         " is too fine for coordinates up to " + Text(largest) +
+                                         " that span " + Text(longest));
   }
   for (size_t i = 0; i < 3; ++i) {
     double side = (bounds.hi[i] - bounds.lo[i]) / result.lattice.unit;
@@ -112,8 +112,7 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
 void EncodeJob::MeasureScan() {
   Bounds bounds = MeasureBounds(*source_, runner_, progress_);
   try {
-    resolution_ =
-        ResolutionOf(bounds, source_->coordinate_type(), options_);
+    resolution_ = ResolutionOf(bounds, source_->coordinate_type(), options_);
   } catch (const Failure& failure) {
     throw Failure(failure.error().kind, source_->path() + ": " + failure.error().message);
   }
@@ -137,10 +136,10 @@ void EncodeJob::Partition() {
   uint32_t per_octave = options_.codec.layers_per_octave;
   double edge = TypicalEdge();
   Offsets offsets = options_.codec.offsets;
-  parameters_.schedule = LayerSchedule(parameters_.extent, per_octave,
-                                       options_.codec.rounds_per_layer,
-                                       SplitLayersFor(parameters_.extent, edge, per_octave, offsets),
-                                       RefineLayersFor(parameters_.extent, edge, per_octave, offsets));
+  parameters_.schedule =
+      LayerSchedule(parameters_.extent, per_octave, options_.codec.rounds_per_layer,
+                    SplitLayersFor(parameters_.extent, edge, per_octave, offsets),
+                    RefineLayersFor(parameters_.extent, edge, per_octave, offsets));
 }
 
 double EncodeJob::TypicalEdge() const {
@@ -247,9 +246,9 @@ void EncodeJob::DropEmptyLayers() {
   for (uint32_t layer = 0; layer < kept_split; ++layer) kept_layers_.push_back(layer);
   kept_layers_.push_back(split - 1);
   for (uint32_t layer = first_refine; layer < all; ++layer) kept_layers_.push_back(layer);
-  parameters_.schedule = LayerSchedule(parameters_.extent, options_.codec.layers_per_octave,
-                                       options_.codec.rounds_per_layer, kept_split + 1,
-                                       all - first_refine);
+  parameters_.schedule =
+      LayerSchedule(parameters_.extent, options_.codec.layers_per_octave,
+                    options_.codec.rounds_per_layer, kept_split + 1, all - first_refine);
 }
 
 io::FileTable EncodeJob::MakeTable() {
@@ -277,12 +276,9 @@ io::FileTable EncodeJob::MakeTable() {
     table.digest.faces += outcome.digest.faces;
     costs_ += outcome.meters;
   }
-  table.kind_bits = {costs_.split / 1024,
-                     (costs_.root + costs_.offsets.Sum()) / 1024,
-                     costs_.refinement / 1024,
-                     costs_.connectivity.Sum() / 1024,
-                     costs_.exceptions / 1024,
-                     costs_.seams / 1024};
+  table.kind_bits = {costs_.split / 1024,      (costs_.root + costs_.offsets.Sum()) / 1024,
+                     costs_.refinement / 1024, costs_.connectivity.Sum() / 1024,
+                     costs_.exceptions / 1024, costs_.seams / 1024};
   for (uint32_t layer : kept_layers_) {
     io::LayerRecord record;
     double distance = 0;

@@ -44,8 +44,9 @@ void DescribeBits(const FolpFile& file, FileInfo* info) {
   info->checksum_bytes = file.container().checksum_bytes();
   // What the segments hold beyond the information in them: rounding up to whole bytes.
   info->flush_bytes = segment_bytes - std::min(segment_bytes, kind_bits / 8);
-  info->overhead = static_cast<double>(info->table_bytes + info->checksum_bytes + info->flush_bytes) /
-                   static_cast<double>(std::max<uint64_t>(info->bytes, 1));
+  info->overhead =
+      static_cast<double>(info->table_bytes + info->checksum_bytes + info->flush_bytes) /
+      static_cast<double>(std::max<uint64_t>(info->bytes, 1));
 }
 
 }  // namespace

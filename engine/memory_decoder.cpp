@@ -111,7 +111,9 @@ DecodedMesh MemoryDecoder::Mesh() const {
   }
   std::vector<SeamFace> cross;
   for (const SeamReader& seam : impl_->seams) seam.state().AppendFaces(&cross);
-  auto index = [&](const BorderRef& ref) { return base[ref.subtree] + border[ref.subtree][ref.border]; };
+  auto index = [&](const BorderRef& ref) {
+    return base[ref.subtree] + border[ref.subtree][ref.border];
+  };
   for (const SeamFace& f : cross) mesh.faces.push_back({index(f[0]), index(f[1]), index(f[2])});
   return mesh;
 }

@@ -111,7 +111,8 @@ void RegionSink::WriteTo(io::PlyWriter& writer) {
     writer.AppendVertices(xyz.subspan(i, std::min(kStep, xyz.size() - i))).value();
   }
   for (size_t i = 0; i < triangles.size(); i += kFacesPerWrite) {
-    writer.AppendFaces(triangles.subspan(i, std::min(kFacesPerWrite, triangles.size() - i))).value();
+    writer.AppendFaces(triangles.subspan(i, std::min(kFacesPerWrite, triangles.size() - i)))
+        .value();
   }
 }
 

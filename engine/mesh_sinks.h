@@ -40,8 +40,8 @@ class PlySink final : public MeshSink {
   std::vector<io::Triangle> triangles_;
 };
 
-/// Keeps the vertices inside a box and the faces with all corners inside; their number is known only
-/// at the end, so they wait in the spill.
+/// Keeps the vertices inside a box and the faces with all corners inside; their number is known
+/// only at the end, so they wait in the spill.
 class RegionSink final : public MeshSink {
  public:
   RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,

@@ -15,17 +15,20 @@ constexpr std::string_view kRepresentatives[] = {"curvature", "centre", "quadric
 using S = CodecSettings;
 
 constexpr SettingKey kKeys[] = {
-    {"hierarchy", &S::hierarchy, "lloyd: vertex sets split top-down (section 2.1); quadric: contracted bottom-up, two a split", "",
-     0, 0, kHierarchies},
+    {"hierarchy", &S::hierarchy,
+     "lloyd: vertex sets split top-down (section 2.1); quadric: contracted bottom-up, two a split",
+     "", 0, 0, kHierarchies},
     {"offsets", &S::offsets,
-     "rho, theta, z or x, y, z in the least-squares frame (section 2.2); lattice: exact, for quadric",
+     "rho, theta, z or x, y, z in the least-squares frame (section 2.2); lattice: exact, for "
+     "quadric",
      "", 0, 0, kOffsets},
     {"subtree_vertices", &S::subtree_vertices,
      "largest subtree: unit of parallel work, memory and random access", "vertices", 1, 16777216},
     {"subtree_normals", &S::subtree_normals,
      "subtrees are cut by the metric of section 2.1; false: by Euclidean distance", ""},
     {"length_weight", &S::length_weight,
-     "of area x length^2 beside the quadric error of a contraction; keeps rings regular", "", 0, 10},
+     "of area x length^2 beside the quadric error of a contraction; keeps rings regular", "", 0,
+     10},
     {"children", &S::children, "K, children of a split (section 2)", "vertex sets", 2, 8},
     {"normal_metric", &S::normal_metric,
      "distances weigh normals by w_n (section 2.1); false: Euclidean distance", ""},
@@ -66,9 +69,9 @@ constexpr SettingKey kKeys[] = {
 
 std::string NumberText(double value) {
   std::array<char, 64> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::general, 12)
-                       .ptr;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 12)
+          .ptr;
   return {text.data(), end};
 }
 
@@ -101,8 +104,8 @@ std::span<const SettingKey> SettingKeys() { return kKeys; }
 
 Result<void> CheckSettings(const CodecSettings& settings) {
   for (const SettingKey& key : kKeys) {
-    const Result<void> checked = std::visit(
-        [&](auto member) { return CheckValue(key, settings.*member); }, key.member);
+    const Result<void> checked =
+        std::visit([&](auto member) { return CheckValue(key, settings.*member); }, key.member);
     if (!checked) return checked.error();
   }
   if (settings.offsets == Offsets::kLattice && settings.hierarchy != Hierarchy::kQuadric) {

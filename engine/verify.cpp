@@ -41,8 +41,9 @@ class MatchSink final : public MeshSink {
   void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
                   std::span<const uint32_t> border_vertices) override {
     digest.AddSubtree(subtree, positions, faces, border_vertices);
-    io::WriteSpillFile(spill_, "decoded." + std::to_string(subtree),
-                       {reinterpret_cast<const uint8_t*>(positions.data()), positions.size_bytes()});
+    io::WriteSpillFile(
+        spill_, "decoded." + std::to_string(subtree),
+        {reinterpret_cast<const uint8_t*>(positions.data()), positions.size_bytes()});
     base.push_back(vertices_);
     border_.emplace_back(border_vertices.begin(), border_vertices.end());
     for (const Face& f : faces) {
@@ -66,9 +67,9 @@ class MatchSink final : public MeshSink {
   std::vector<std::vector<uint32_t>> border_;
 };
 
-/// Compares a decoded file with a scan. The encoder's order of the scan proposes which decoded vertex
-/// each original became; that it is one to one, near enough and carries the faces over is then checked
-/// without trust in the encoder.
+/// Compares a decoded file with a scan. The encoder's order of the scan proposes which decoded
+/// vertex each original became; that it is one to one, near enough and carries the faces over is
+/// then checked without trust in the encoder.
 class Comparison {
  public:
   Comparison(const FolpFile& file, const std::string& original, const DecodeOptions& options,
@@ -161,8 +162,8 @@ class Comparison {
   void ComparePositions(VerifyReport* report) {
     const io::MeshSource& source = job_.source();
     Lattice lattice = file_.lattice();
-    bool as_float = static_cast<io::ScalarType>(file_.table().coordinate_type) ==
-                    io::ScalarType::kFloat32;
+    bool as_float =
+        static_cast<io::ScalarType>(file_.table().coordinate_type) == io::ScalarType::kFloat32;
     size_t blocks = source.vertex_block_count();
     std::vector<double> largest(blocks, 0);
     progress_.StartStage("compare vertices", blocks);
@@ -184,7 +185,8 @@ class Comparison {
       if (b % 64 == 63) DropResident();
       progress_.Advance(1);
     });
-    for (double error : largest) report->max_position_error = std::max(report->max_position_error, error);
+    for (double error : largest)
+      report->max_position_error = std::max(report->max_position_error, error);
     // The last digits of the subtraction itself are no error of the coder.
     if (!(report->max_position_error <= report->tolerance * (1 + 1e-9))) {
       report->reason = "a position is off by more than the tolerance";

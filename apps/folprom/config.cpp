@@ -44,14 +44,13 @@ std::vector<Key> Keys(EncodeConfig& config) {
   EncodeOptions& o = config.options;
   std::vector<Key> keys = {
       {"encode", "bits", &o.bits,
-       "the lattice has 2^bits - 1 steps along the longest side; used where tolerance is 0",
-       "bits", 1, 24},
+       "the lattice has 2^bits - 1 steps along the longest side; used where tolerance is 0", "bits",
+       1, 24},
       {"encode", "tolerance", &o.tolerance, "largest error per axis; 0: from bits", "model units",
        0, kNoLimit},
       {"encode", "threads", &config.threads, "0: all; never alters the file", "threads", 0, 1024},
-      {"encode", "memory", &o.memory_bytes,
-       "resident size to stay below; never alters the file", "bytes, or a text such as \"2GiB\"",
-       1, kNoLimit},
+      {"encode", "memory", &o.memory_bytes, "resident size to stay below; never alters the file",
+       "bytes, or a text such as \"2GiB\"", 1, kNoLimit},
       {"encode", "tmp", &o.temporary_folder, "folder for temporary files; empty: $TMPDIR or /tmp",
        ""},
   };
@@ -166,8 +165,8 @@ class ConfigReader {
         return;
       }
     }
-    Fail(node, "unknown key " + std::string(table) + "." + std::string(name) +
-                   Suggestion(table, name));
+    Fail(node,
+         "unknown key " + std::string(table) + "." + std::string(name) + Suggestion(table, name));
   }
 
   // The known key that is spelt most alike; the own table wins among equals.
@@ -240,7 +239,7 @@ class ConfigReader {
   }
 
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
   void ReadValue(const Key& key, const toml::node& node, Enum* value) const {
     if (!node.is_string()) WrongType(key, node, "a text in quotes");
     for (size_t i = 0; i < key.choices.size(); ++i) {

@@ -69,13 +69,13 @@ void PrintReport(const DecodeFlags& flags, const DecodeReport& report, double se
                {"error_bound", report.error_bound},
                {"warnings", report.warnings}});
   } else if (!flags.common.quiet) {
-    Print(fmt::format("{}: {} vertices, {} faces, {}\n"
-                      "{} of {} layers from {} bytes, error at most {:.6g}; {:.1f} s, {} memory\n",
-                      flags.output, Grouped(report.vertices), Grouped(report.faces),
-                      report.complete ? "the whole mesh" : "a part of the mesh",
-                      Grouped(report.layers), Grouped(report.layers_total),
-                      Grouped(report.bytes_read), report.error_bound, seconds,
-                      BytesShort(PeakResidentBytes())));
+    Print(fmt::format(
+        "{}: {} vertices, {} faces, {}\n"
+        "{} of {} layers from {} bytes, error at most {:.6g}; {:.1f} s, {} memory\n",
+        flags.output, Grouped(report.vertices), Grouped(report.faces),
+        report.complete ? "the whole mesh" : "a part of the mesh", Grouped(report.layers),
+        Grouped(report.layers_total), Grouped(report.bytes_read), report.error_bound, seconds,
+        BytesShort(PeakResidentBytes())));
   }
 }
 

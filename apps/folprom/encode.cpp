@@ -61,19 +61,23 @@ EncodeConfig Settings(const EncodeFlags& flags) {
 }
 
 Json BitsJson(const BitCounts& bits) {
-  return {{"split", bits.split},           {"root", bits.root},
-          {"theta", bits.theta},           {"rho", bits.rho},
-          {"z", bits.z},                   {"refinement", bits.refinement},
-          {"connected", bits.connected},   {"pivots", bits.pivots},
-          {"sides", bits.sides},           {"exceptions", bits.exceptions},
+  return {{"split", bits.split},
+          {"root", bits.root},
+          {"theta", bits.theta},
+          {"rho", bits.rho},
+          {"z", bits.z},
+          {"refinement", bits.refinement},
+          {"connected", bits.connected},
+          {"pivots", bits.pivots},
+          {"sides", bits.sides},
+          {"exceptions", bits.exceptions},
           {"seams", bits.seams}};
 }
 
 void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double seconds) {
-  const double bits_per_vertex =
-      report.vertices == 0
-          ? 0
-          : 8 * static_cast<double>(report.bytes) / static_cast<double>(report.vertices);
+  const double bits_per_vertex = report.vertices == 0 ? 0
+                                                      : 8 * static_cast<double>(report.bytes) /
+                                                            static_cast<double>(report.vertices);
   if (flags.common.json) {
     PrintJson({{"output", flags.output},
                {"vertices", report.vertices},
@@ -88,12 +92,12 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
                {"bits", BitsJson(report.bits)},
                {"warnings", report.warnings}});
   } else if (!flags.common.quiet) {
-    Print(fmt::format("{}: {} vertices, {} faces in {} bytes, {:.2f} bits per vertex\n"
-                      "{} layers, {} subtrees; {:.1f} s, {} memory, {} temporary disk\n",
-                      flags.output, Grouped(report.vertices), Grouped(report.faces),
-                      Grouped(report.bytes), bits_per_vertex, Grouped(report.layers),
-                      Grouped(report.subtrees), seconds, BytesShort(PeakResidentBytes()),
-                      BytesShort(report.spill_bytes)));
+    Print(fmt::format(
+        "{}: {} vertices, {} faces in {} bytes, {:.2f} bits per vertex\n"
+        "{} layers, {} subtrees; {:.1f} s, {} memory, {} temporary disk\n",
+        flags.output, Grouped(report.vertices), Grouped(report.faces), Grouped(report.bytes),
+        bits_per_vertex, Grouped(report.layers), Grouped(report.subtrees), seconds,
+        BytesShort(PeakResidentBytes()), BytesShort(report.spill_bytes)));
   }
 }
 
@@ -130,11 +134,10 @@ Verb AddEncode(CLI::App& program) {
   verb->add_flag("-f,--force", flags->force, "May replace the output");
   verb->add_option("--config", flags->config, "Settings to start from; flags win")
       ->type_name("C.toml");
-  CLI::Option* bits =
-      verb->add_option("--bits", flags->bits,
-                       "Lattice of 2^N - 1 steps along the longest side; 1 .. 24")
-          ->check(CLI::Range(1, 24))
-          ->type_name("N");
+  CLI::Option* bits = verb->add_option("--bits", flags->bits,
+                                       "Lattice of 2^N - 1 steps along the longest side; 1 .. 24")
+                          ->check(CLI::Range(1, 24))
+                          ->type_name("N");
   AddPositiveOption(verb, "--tolerance", &flags->tolerance, "LENGTH",
                     "Largest error per axis, in model units")
       ->excludes(bits);

@@ -99,8 +99,8 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
   fmt::format_to(out, "{} bytes, {:.2f} bits per vertex, {} subtrees, tolerance {:.6g}\n",
                  Grouped(info.bytes), BitsPerVertex(info), Grouped(info.subtrees), info.tolerance);
   if (info.bytes_present < info.bytes) {
-    fmt::format_to(out, "cut: {} bytes and {} of {} layers are here\n",
-                   Grouped(info.bytes_present), info.layers_present, info.layers.size());
+    fmt::format_to(out, "cut: {} bytes and {} of {} layers are here\n", Grouped(info.bytes_present),
+                   info.layers_present, info.layers.size());
   }
   fmt::format_to(out, "box {:.6g} {:.6g} {:.6g} .. {:.6g} {:.6g} {:.6g}\n", info.box_lo[0],
                  info.box_lo[1], info.box_lo[2], info.box_hi[0], info.box_hi[1], info.box_hi[2]);
@@ -108,8 +108,7 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
   for (const Kind& kind : kKinds) {
     fmt::format_to(out, " {} {:.3f}", kind.name, info.*kind.bits_per_vertex);
   }
-  fmt::format_to(out, "; tables, checksums, flushes {:.2f} % of the file\n\n",
-                 100 * info.overhead);
+  fmt::format_to(out, "; tables, checksums, flushes {:.2f} % of the file\n\n", 100 * info.overhead);
   fmt::format_to(out, "{:>5} {:>15} {:>15} {:>14} {:>14} {:>13} {:>8}\n", "layer", "bytes",
                  "end byte", "vertices", "faces", "error bound", "bits/v");
   size_t number = 0;

@@ -70,8 +70,9 @@ int Run(int argc, char** argv) {
   program.footer(kFooter);
   program.set_version_flag("--version", "folprom " FOLPROM_VERSION);
   program.require_subcommand(0, 1);
-  const Verb verbs[] = {AddEncode(program), AddDecode(program), AddInfo(program),
-                        AddVerify(program), AddCompare(program), AddRd(program), AddSynth(program)};
+  const Verb verbs[] = {AddEncode(program), AddDecode(program),  AddInfo(program),
+                        AddVerify(program), AddCompare(program), AddRd(program),
+                        AddSynth(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -82,8 +83,8 @@ int Run(int argc, char** argv) {
   for (const Verb& verb : verbs) {
     if (verb.parser->parsed()) return verb.run();
   }
-  return Report({ErrorKind::kUsage,
-                 "no verb given: encode, decode, info, verify, compare, rd or synth"});
+  return Report(
+      {ErrorKind::kUsage, "no verb given: encode, decode, info, verify, compare, rd or synth"});
 }
 
 }  // namespace

@@ -15,13 +15,20 @@ struct Suffix {
 };
 
 constexpr double kKi = 1024;
-constexpr Suffix kByteSuffixes[] = {
-    {"", 1},           {"b", 1},          {"k", kKi},
-    {"kib", kKi},      {"m", kKi * kKi},  {"mib", kKi * kKi},
-    {"g", kKi * kKi * kKi},               {"gib", kKi * kKi * kKi},
-    {"t", kKi * kKi * kKi * kKi},         {"tib", kKi * kKi * kKi * kKi},
-    {"kb", 1e3},       {"mb", 1e6},       {"gb", 1e9},
-    {"tb", 1e12}};
+constexpr Suffix kByteSuffixes[] = {{"", 1},
+                                    {"b", 1},
+                                    {"k", kKi},
+                                    {"kib", kKi},
+                                    {"m", kKi* kKi},
+                                    {"mib", kKi* kKi},
+                                    {"g", kKi* kKi* kKi},
+                                    {"gib", kKi* kKi* kKi},
+                                    {"t", kKi* kKi* kKi* kKi},
+                                    {"tib", kKi* kKi* kKi* kKi},
+                                    {"kb", 1e3},
+                                    {"mb", 1e6},
+                                    {"gb", 1e9},
+                                    {"tb", 1e12}};
 constexpr Suffix kCountSuffixes[] = {{"", 1}, {"k", 1e3}, {"m", 1e6}, {"g", 1e9}};
 
 // Reads one number from the front of *text and cuts it off.
@@ -118,8 +125,8 @@ void AddCommonFlags(CLI::App* verb, CommonFlags* flags) {
   verb->add_flag("-v,--verbose", flags->verbose, "Say more on standard error")->excludes(quiet);
 }
 
-CLI::Option* AddBytesOption(CLI::App* verb, const std::string& name,
-                            std::optional<uint64_t>* value, const std::string& help) {
+CLI::Option* AddBytesOption(CLI::App* verb, const std::string& name, std::optional<uint64_t>* value,
+                            const std::string& help) {
   return verb
       ->add_option_function<std::string>(
           name,
@@ -130,8 +137,8 @@ CLI::Option* AddBytesOption(CLI::App* verb, const std::string& name,
       ->type_name("SIZE");
 }
 
-CLI::Option* AddCountOption(CLI::App* verb, const std::string& name,
-                            std::optional<uint64_t>* value, const std::string& help) {
+CLI::Option* AddCountOption(CLI::App* verb, const std::string& name, std::optional<uint64_t>* value,
+                            const std::string& help) {
   return verb
       ->add_option_function<std::string>(
           name,

@@ -49,10 +49,10 @@ void AddWorkFlags(CLI::App* verb, WorkFlags* flags);
 /// --runner, which only tests need.
 void AddRunnerFlag(CLI::App* verb, WorkFlags* flags);
 /// Options whose text is a size, a count or a number above 0.
-CLI::Option* AddBytesOption(CLI::App* verb, const std::string& name,
-                            std::optional<uint64_t>* value, const std::string& help);
-CLI::Option* AddCountOption(CLI::App* verb, const std::string& name,
-                            std::optional<uint64_t>* value, const std::string& help);
+CLI::Option* AddBytesOption(CLI::App* verb, const std::string& name, std::optional<uint64_t>* value,
+                            const std::string& help);
+CLI::Option* AddCountOption(CLI::App* verb, const std::string& name, std::optional<uint64_t>* value,
+                            const std::string& help);
 CLI::Option* AddPositiveOption(CLI::App* verb, const std::string& name,
                                std::optional<double>* value, const std::string& type,
                                const std::string& help);

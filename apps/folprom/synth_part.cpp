@@ -97,8 +97,8 @@ void Part::PlaceSamples(uint64_t row, SampleRow* out) const {
   out->u.resize(count);
   out->lean.resize(count);
   out->present.resize(count);
-  for (auto* values : {&s.x, &s.y, &s.z, &s.noise_x, &s.noise_y, &s.noise_z, &s.coarse, &s.fine,
-                       &s.jitter}) {
+  for (auto* values :
+       {&s.x, &s.y, &s.z, &s.noise_x, &s.noise_y, &s.noise_z, &s.coarse, &s.fine, &s.jitter}) {
     values->resize(count);
   }
 

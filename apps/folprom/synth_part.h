@@ -26,8 +26,7 @@ class Part {
  public:
   /// `samples`: how many to place; a blob or patch places about as many and loses some to holes, a
   /// sheet (at least 4) has exactly that many. `size`: half of its extent, model units.
-  Part(PartShape shape, uint64_t samples, std::array<double, 3> centre, double size,
-       uint64_t seed);
+  Part(PartShape shape, uint64_t samples, std::array<double, 3> centre, double size, uint64_t seed);
 
   uint64_t row_count() const { return rows_; }
   /// Rows are rings: the last sample is a neighbour of the first.

@@ -29,8 +29,8 @@ class StripMesher {
  private:
   struct Row {
     SampleRow samples;
-    std::vector<uint8_t> used;   ///< some triangle has the sample
-    std::vector<uint64_t> ids;   ///< of the used samples
+    std::vector<uint8_t> used;  ///< some triangle has the sample
+    std::vector<uint64_t> ids;  ///< of the used samples
   };
   /// Corners are sample numbers, kUpper added for those of the strip's upper row.
   using StripTriangle = std::array<uint32_t, 3>;

@@ -39,9 +39,9 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
                {"seconds", seconds},
                {"peak_rss_bytes", PeakResidentBytes()}});
   } else if (!flags.common.quiet && report.lossless) {
-    std::string text = fmt::format("{}: lossless, {} vertices, {} faces, tolerance {:.6g}",
-                                   flags.input, Grouped(report.vertices), Grouped(report.faces),
-                                   report.tolerance);
+    std::string text =
+        fmt::format("{}: lossless, {} vertices, {} faces, tolerance {:.6g}", flags.input,
+                    Grouped(report.vertices), Grouped(report.faces), report.tolerance);
     if (report.against) {
       text += fmt::format(", largest error {:.6g} against {}", report.max_position_error,
                           flags.original);

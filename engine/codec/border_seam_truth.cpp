@@ -31,7 +31,8 @@ class VertexFinder {
   }
   uint32_t Find(size_t member, uint32_t local) const {
     const auto& entries = parts_[member].entries;
-    auto it = std::lower_bound(entries.begin(), entries.end(), std::pair<uint32_t, uint32_t>{local, 0});
+    auto it =
+        std::lower_bound(entries.begin(), entries.end(), std::pair<uint32_t, uint32_t>{local, 0});
     if (it == entries.end() || it->first != local) {
       throw Failure(ErrorKind::kInternal, "a cross face names a vertex that is no border vertex");
     }

@@ -15,8 +15,8 @@ namespace folprom {
 /// One subtree of a seam as the encoder knows it.
 struct SeamMember {
   uint32_t subtree = 0;
-  const BorderRecord* border = nullptr;            ///< complete
-  std::span<const uint32_t> original_of_border;    ///< original vertex (local) per final border set
+  const BorderRecord* border = nullptr;          ///< complete
+  std::span<const uint32_t> original_of_border;  ///< original vertex (local) per final border set
 };
 
 class BorderSeamTruth final : public SeamTruth {
@@ -44,9 +44,9 @@ class BorderSeamTruth final : public SeamTruth {
 
   /// Sets of border vertices as ranges: at each event the set of `border` loses its last vertices.
   struct Replay {
-    std::vector<uint32_t> leaves;        ///< oracle vertices, every set of every time contiguous
-    std::vector<uint32_t> begin, end;    ///< current range per border set
-    std::vector<uint32_t> second_size;   ///< per event
+    std::vector<uint32_t> leaves;       ///< oracle vertices, every set of every time contiguous
+    std::vector<uint32_t> begin, end;   ///< current range per border set
+    std::vector<uint32_t> second_size;  ///< per event
   };
   static Replay PlanReplay(const BorderRecord& border, uint32_t offset);
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "engine/codec/border_seam_truth.h"
-#include "engine/codec/tree_truth.h"
 #include "engine/codec/seam_coder.h"
+#include "engine/codec/tree_truth.h"
 #include "engine/entropy/bit_coder.h"
 #include "engine/hierarchy/lloyd_tree.h"
 #include "engine/hierarchy/quadric_tree.h"
@@ -74,14 +74,14 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
     result.faces.push_back(coder.face_count());
   }
   result.final_vertices = truth.FinalVertices();
-  CheckTolerance(chunk, coder.positions(), result.final_vertices,
-                 parameters.settings.offsets);
+  CheckTolerance(chunk, coder.positions(), result.final_vertices, parameters.settings.offsets);
 
   const std::vector<Int3>& positions = coder.positions();
   for (const Int3& position : positions) AddVertex(&result.digest, position);
   std::vector<Face> faces;
   coder.AppendFaces(&faces);
-  for (const Face& f : faces) AddFace(&result.digest, positions[f[0]], positions[f[1]], positions[f[2]]);
+  for (const Face& f : faces)
+    AddFace(&result.digest, positions[f[0]], positions[f[1]], positions[f[2]]);
 
   result.border = coder.border();
   for (uint32_t v = 0; v < result.final_vertices.size(); ++v) {
@@ -98,7 +98,8 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
   return result;
 }
 
-EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees, const std::vector<BorderFile>& borders,
+EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees,
+                       const std::vector<BorderFile>& borders,
                        std::span<const CrossFace> cross_faces, const CodecParameters& parameters) {
   std::vector<SeamMember> members;
   std::vector<SeamCoder::Participant> participants;

@@ -34,7 +34,8 @@ struct EncodedSubtree {
 };
 
 /// The hierarchy that the settings ask for.
-SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree, const CodecParameters& parameters);
+SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree,
+                     const CodecParameters& parameters);
 
 /// Upper estimate of the memory that EncodeSubtree takes.
 uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary);
@@ -59,7 +60,8 @@ struct BorderFile {
   BorderVertices vertices;
 };
 
-EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees, const std::vector<BorderFile>& borders,
+EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees,
+                       const std::vector<BorderFile>& borders,
                        std::span<const CrossFace> cross_faces, const CodecParameters& parameters);
 
 }  // namespace folprom

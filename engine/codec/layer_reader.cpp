@@ -24,10 +24,9 @@ CodecParameters ParametersOf(const io::FileTable& table) {
   CodecParameters parameters =
       ReadParameters(table.codec, {table.extent[0], table.extent[1], table.extent[2]});
   if (parameters.schedule.layers() != table.layers.size()) {
-    throw Failure(ErrorKind::kCorrupt, "the coder's settings announce " +
-                                           std::to_string(parameters.schedule.layers()) +
-                                           " layers, the table " +
-                                           std::to_string(table.layers.size()));
+    throw Failure(ErrorKind::kCorrupt,
+                  "the coder's settings announce " + std::to_string(parameters.schedule.layers()) +
+                      " layers, the table " + std::to_string(table.layers.size()));
   }
   return parameters;
 }
@@ -51,9 +50,7 @@ SubtreeShape ShapeOf(const io::FileTable& table, size_t subtree) {
 
 SubtreeReader::SubtreeReader(const io::ContainerReader& container,
                              const CodecParameters& parameters, size_t subtree, bool has_border)
-    : container_(container),
-      subtree_(subtree),
-      coder_(parameters, [&] {
+    : container_(container), subtree_(subtree), coder_(parameters, [&] {
         SubtreeShape shape = ShapeOf(container.table(), subtree);
         shape.has_border = has_border;
         return shape;

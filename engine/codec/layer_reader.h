@@ -37,8 +37,8 @@ class SubtreeReader {
 /// The seam of one subtree; the records of its members must reach the layer that is decoded.
 class SeamReader {
  public:
-  SeamReader(const io::ContainerReader& container, const CodecParameters& parameters,
-             size_t owner, std::vector<SeamCoder::Participant> participants);
+  SeamReader(const io::ContainerReader& container, const CodecParameters& parameters, size_t owner,
+             std::vector<SeamCoder::Participant> participants);
   void DecodeLayer();
   const SeamCoder& state() const { return coder_; }
 

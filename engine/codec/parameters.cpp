@@ -102,8 +102,11 @@ uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layer
 }
 
 OffsetSettings CodecParameters::offsets() const {
-  return {children(), settings.quantisation_levels, settings.adaptive_quantisation,
-          settings.predict_theta, settings.predict_height,
+  return {children(),
+          settings.quantisation_levels,
+          settings.adaptive_quantisation,
+          settings.predict_theta,
+          settings.predict_height,
           settings.offsets == Offsets::kCartesian};
 }
 
@@ -132,7 +135,8 @@ void Append(std::vector<uint8_t>* bytes, const void* data, size_t size) {
 
 std::vector<uint8_t> WriteParameters(const CodecParameters& parameters) {
   std::vector<uint8_t> bytes;
-  ForEachField(parameters.settings, [&](const auto& field) { Append(&bytes, &field, sizeof field); });
+  ForEachField(parameters.settings,
+               [&](const auto& field) { Append(&bytes, &field, sizeof field); });
   uint32_t counts[2] = {parameters.schedule.split_layers(), parameters.schedule.refine_layers()};
   Append(&bytes, counts, sizeof counts);
   return bytes;
@@ -154,7 +158,8 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
     if constexpr (std::is_same_v<Field, bool>) {
       uint8_t value = 0;
       take(&value, 1);
-      if (value > 1) throw Failure(ErrorKind::kCorrupt, "settings of the coder: a switch is not 0 or 1");
+      if (value > 1)
+        throw Failure(ErrorKind::kCorrupt, "settings of the coder: a switch is not 0 or 1");
       field = value == 1;
     } else {
       take(&field, sizeof field);
@@ -175,8 +180,8 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
       counts[1] > RefineLayersFor(extent, 0, per_octave, offsets)) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: number of layers out of range");
   }
-  parameters.schedule = LayerSchedule(extent, per_octave, parameters.settings.rounds_per_layer,
-                                      counts[0], counts[1]);
+  parameters.schedule =
+      LayerSchedule(extent, per_octave, parameters.settings.rounds_per_layer, counts[0], counts[1]);
   return parameters;
 }
 

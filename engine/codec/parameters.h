@@ -67,7 +67,8 @@ struct CodecParameters {
   ConnectivitySettings connectivity() const;
 };
 
-/// The codec's own bytes in the table of the file, and back. The schedule's counts are part of them.
+/// The codec's own bytes in the table of the file, and back. The schedule's counts are part of
+/// them.
 std::vector<uint8_t> WriteParameters(const CodecParameters& parameters);
 /// Throws Failure kCorrupt.
 CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& extent);

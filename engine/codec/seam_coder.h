@@ -1,8 +1,8 @@
 // The seam of a subtree: all edges and faces between it and the subtrees of lower number.
 //
-// A cross edge lies in the seam of its higher subtree, a cross face in that of its highest. The seam
-// replays the border splits of the subtrees that take part and codes what each does to cross edges
-// and faces, with the same coder as inside a subtree. No vertex is ever duplicated.
+// A cross edge lies in the seam of its higher subtree, a cross face in that of its highest. The
+// seam replays the border splits of the subtrees that take part and codes what each does to cross
+// edges and faces, with the same coder as inside a subtree. No vertex is ever duplicated.
 #pragma once
 
 #include <array>
@@ -68,7 +68,7 @@ class SeamCoder {
   uint32_t layer_ = 0;
   Complex complex_;
   std::vector<Int3> positions_;
-  std::vector<BorderRef> name_;  ///< per vertex of the complex
+  std::vector<BorderRef> name_;                          ///< per vertex of the complex
   std::vector<std::vector<uint32_t>> vertex_of_border_;  ///< per participant
   SplitCoder split_coder_;
   MixedModel<1> root_face_;

@@ -94,7 +94,8 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
     }
     if (schedule.IsLastSplitLayer(layer_)) {
       if (positions_.size() != shape_.vertices) {
-        throw Failure(ErrorKind::kCorrupt, "coded sets do not add up to the vertices of the subtree");
+        throw Failure(ErrorKind::kCorrupt,
+                      "coded sets do not add up to the vertices of the subtree");
       }
       coder.SetMeter(&meters->exceptions);
       FaceCensus census;
@@ -299,9 +300,8 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, SubtreeTruth* truth
     position = truth->ChildRepresentative(set, 1);
     truth->BeginSplit(set, kOrder);
   }
-  position =
-      lattice_coder_.CodeNew(coder, positions_[set], ShapeAround(set), precision_, position,
-                             &meters->offsets.rho, &meters->offsets.z);
+  position = lattice_coder_.CodeNew(coder, positions_[set], ShapeAround(set), precision_, position,
+                                    &meters->offsets.rho, &meters->offsets.z);
   if constexpr (Coder::kEncoding) {
     truth->BeginBinarySplit(set, std::span(kOrder).first(1), std::span(kOrder).last(1));
   }
@@ -329,7 +329,7 @@ void SubtreeCoder::CodePrecision(Coder& coder, SubtreeTruth* truth) {
     double sum = 0;
     for (uint32_t set : open_) sum = sum + truth->SplitError(set);
     double error = sum / static_cast<double>(positions_.size());
-    while (finer < shift && static_cast<double>(uint64_t{1} << (shift - finer)) > error) ++finer;
+    while (finer<shift&& static_cast<double>(uint64_t{1} << (shift - finer))> error) ++finer;
   }
   // Once a layer: not worth a model.
   uint32_t coded = 0;

@@ -92,10 +92,10 @@ class SubtreeCoder {
   enum SetState : uint8_t { kUnknown = 0, kLeaf = 1 };
   static constexpr float kUnmeasured = 3e38f;
   struct SetRecord {
-    float scale = 0;           ///< spacing to assume without neighbours, lattice units
+    float scale = 0;              ///< spacing to assume without neighbours, lattice units
     float spacing = kUnmeasured;  ///< when last measured; never far below the present one
-    uint32_t cell = kNone;     ///< index into cells_; kNone: the position is exact
-    uint32_t border = kNone;   ///< number of the border set
+    uint32_t cell = kNone;        ///< index into cells_; kNone: the position is exact
+    uint32_t border = kNone;      ///< number of the border set
     SetState state = kUnknown;
   };
 

@@ -65,7 +65,7 @@ uint64_t TreeTruth::BorderVertices(std::span<const uint32_t> places) const {
 }
 
 void TreeTruth::BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,
-                                  std::span<const uint32_t> second) {
+                                 std::span<const uint32_t> second) {
   first_set_ = set;
   first_places_.assign(first.begin(), first.end());
   second_places_.assign(second.begin(), second.end());
@@ -91,7 +91,8 @@ void TreeTruth::EndBinarySplit(uint32_t second_set) {
   node_of_set_.resize(std::max<size_t>(node_of_set_.size(), second_set + size_t{1}));
   uint32_t first_child = tree_.node(parent_).first_child;
   if (first_places_.size() == 1) node_of_set_[first_set_] = first_child + order_[first_places_[0]];
-  if (second_places_.size() == 1) node_of_set_[second_set] = first_child + order_[second_places_[0]];
+  if (second_places_.size() == 1)
+    node_of_set_[second_set] = first_child + order_[second_places_[0]];
 }
 
 Int3 TreeTruth::VertexPosition(uint32_t set) const {

@@ -30,9 +30,7 @@ class TreeTruth final : public SubtreeTruth {
   bool SecondTouchesBorder() const override { return second_border_; }
   void EndBinarySplit(uint32_t second_set) override;
   Int3 VertexPosition(uint32_t set) const override;
-  double SplitError(uint32_t set) const override {
-    return tree_.node(node_of_set_[set]).error;
-  }
+  double SplitError(uint32_t set) const override { return tree_.node(node_of_set_[set]).error; }
   SplitOracle* oracle() override { return &oracle_; }
   FaceCensus CountFaces(const Complex& complex) const override;
 
@@ -50,7 +48,8 @@ class TreeTruth final : public SubtreeTruth {
   SplitOracle oracle_;
   std::vector<uint32_t> border_before_;  ///< border vertices among the first i of tree_.order()
   std::vector<uint32_t> node_of_set_;    ///< node of the tree, valid for sets that are one node
-  // The split under way: the node whose children are being parted, and those children in their order.
+  // The split under way: the node whose children are being parted, and those children in their
+  // order.
   uint32_t parent_ = 0;
   std::vector<uint32_t> order_;
   std::vector<uint32_t> first_places_, second_places_;

@@ -14,9 +14,9 @@ namespace folprom {
 inline constexpr uint32_t kNone = 0xffffffff;
 
 /// Vertices, edges and faces that only ever grow in number. An edge is two half-edges, 2e and 2e+1;
-/// a face has three corners, 3f .. 3f+2. Half-edges and corners of a vertex are doubly linked lists,
-/// so each moves from one vertex to another in constant time, whatever the degree of either end.
-/// Lists are in order of insertion at the front: the same calls give the same order.
+/// a face has three corners, 3f .. 3f+2. Half-edges and corners of a vertex are doubly linked
+/// lists, so each moves from one vertex to another in constant time, whatever the degree of either
+/// end. Lists are in order of insertion at the front: the same calls give the same order.
 class Complex {
  public:
   struct HalfEdge {
@@ -130,6 +130,8 @@ inline void CheckSize(const Complex& complex, uint64_t mesh_faces) {
 
 /// Next and previous corner of the same face.
 inline uint32_t NextCorner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-inline uint32_t PreviousCorner(uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
+inline uint32_t PreviousCorner(uint32_t corner) {
+  return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
 
 }  // namespace folprom

@@ -21,9 +21,7 @@ bool SameOrientation(const Face& face, const Face& original) {
 struct EdgeFace {
   uint32_t a, b;
   bool second_twice;
-  bool operator<(const EdgeFace& other) const {
-    return a != other.a ? a < other.a : b < other.b;
-  }
+  bool operator<(const EdgeFace& other) const { return a != other.a ? a < other.a : b < other.b; }
 };
 
 }  // namespace

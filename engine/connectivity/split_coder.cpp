@@ -37,7 +37,8 @@ uint32_t DegreeBucket(size_t degree) {
 }
 constexpr uint32_t kDegreeBuckets = 11;
 
-/// The paper's R (section 3.2), squared, in 1/16. Division and multiplication only, so exact to repeat.
+/// The paper's R (section 3.2), squared, in 1/16. Division and multiplication only, so exact to
+/// repeat.
 uint32_t Regularity(double a2, double b2, double c2) {
   double a = std::sqrt(a2), b = std::sqrt(b2), c = std::sqrt(c2);
   double s = (a + b + c) / 2;
@@ -55,9 +56,7 @@ uint32_t AtMost(uint32_t value, uint32_t most) { return value < most ? value : m
 SplitCoder::SplitCoder(ConnectivitySettings settings)
     : settings_(settings),
       connected_({kDegreeBuckets * 4, 16 * 4}, 1),
-      pivot_({8 * 4 * 2 * kDegreeBuckets, kRegularityBuckets * 4 * 9,
-              4 * kLeanBuckets * 8 * 4},
-             8),
+      pivot_({8 * 4 * 2 * kDegreeBuckets, kRegularityBuckets * 4 * 9, 4 * kLeanBuckets * 8 * 4}, 8),
       side_({kLeanBuckets * 4 * 2, 3 * 3 * kLeanBuckets * 2, kDegreeBuckets * kLeanBuckets}, 4),
       face_both_({16, 4}, 1),
       face_side_({kLeanBuckets, 4}, 1),
@@ -151,8 +150,11 @@ void SplitCoder::CodePivots(Coder& coder, SplitOracle* oracle, SplitMeters* mete
     uint32_t context0 = ((AtMost(rank, 7) * 4 + found) * 2 + joined) * kDegreeBuckets + degree;
     uint32_t context1 =
         (regularity * 4 + found) * 9 + AtMost(beside_pivot, 2) * 3 + AtMost(beside_other, 2);
-    uint32_t context2 = ((AtMost(neighbour.face_count, 3) * kLeanBuckets +
-                          LeanBucket(neighbour.lean)) * 8 + regularity / 2) * 4 + found;
+    uint32_t context2 =
+        ((AtMost(neighbour.face_count, 3) * kLeanBuckets + LeanBucket(neighbour.lean)) * 8 +
+         regularity / 2) *
+            4 +
+        found;
     bool pivot = false;
     if constexpr (Coder::kEncoding) {
       pivot = oracle->NeighbourSide(neighbour.half_edge, neighbour.vertex) == kBoth;
@@ -254,8 +256,8 @@ void SplitCoder::CodeFaces(Coder& coder, SplitOracle* oracle) {
       if constexpr (Coder::kEncoding) truth = oracle->FaceSide(face.corner / 3);
       uint32_t pivots = AtMost(pivots_, 3), bucket = LeanBucket(lean);
       uint32_t foreign = face.end[0] == kNone || face.end[1] == kNone ? 1 : 0;
-      if (face_both_.Code(coder, {pivots * 4 + (star_.connected ? 2u : 0u) + foreign, bucket / 3}, 0,
-                          truth == kBoth)) {
+      if (face_both_.Code(coder, {pivots * 4 + (star_.connected ? 2u : 0u) + foreign, bucket / 3},
+                          0, truth == kBoth)) {
         face.side = kBoth;
       } else {
         Side nearer = lean < 0 ? kFirst : kSecond;
@@ -289,9 +291,8 @@ void SplitCoder::CodeNewFaces(Coder& coder, SplitOracle* oracle, Complex& comple
     forward = orientation_.Code(coder, {votes * 3 + before}, 0, forward);
     before = forward ? 2 : 1;
     ++made;
-    neighbour.new_face = forward
-                             ? complex.AddFace(star_.vertex, star_.second, neighbour.vertex)
-                             : complex.AddFace(star_.second, star_.vertex, neighbour.vertex);
+    neighbour.new_face = forward ? complex.AddFace(star_.vertex, star_.second, neighbour.vertex)
+                                 : complex.AddFace(star_.second, star_.vertex, neighbour.vertex);
   }
 }
 

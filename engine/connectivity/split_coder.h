@@ -24,7 +24,8 @@ struct ConnectivitySettings {
   bool nearer_child = true;
 };
 
-/// Pivot flags (context: number of neighbours and place in the order, both at most 15) and side flags.
+/// Pivot flags (context: number of neighbours and place in the order, both at most 15) and side
+/// flags.
 struct SplitTally {
   ValueTally pivots, sides;
 };
@@ -44,12 +45,12 @@ class SplitCoder {
 
   /// What is known of the split before its connectivity.
   struct Known {
-    Int3 first;               ///< position of the first child
-    Int3 second;              ///< position of the second child
+    Int3 first;   ///< position of the first child
+    Int3 second;  ///< position of the second child
     /// false: `connected` is known to both sides, and the edge belongs to another complex.
     bool code_connected = true;
     bool connected = false;
-    Side all = kUndecided;    ///< kFirst or kSecond: every neighbour goes to that child
+    Side all = kUndecided;  ///< kFirst or kSecond: every neighbour goes to that child
   };
 
   /// Codes and applies the split of `vertex` into itself and a new vertex, which is returned.

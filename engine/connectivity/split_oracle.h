@@ -13,23 +13,26 @@
 
 namespace folprom {
 
-/// Knows which original vertices each vertex of the LOD stands for, and answers what a split does to
-/// edges and faces. Work per split: the original faces around the smaller of the two new sets, so
-/// n log n in total.
+/// Knows which original vertices each vertex of the LOD stands for, and answers what a split does
+/// to edges and faces. Work per split: the original faces around the smaller of the two new sets,
+/// so n log n in total.
 class SplitOracle {
  public:
   /// `faces` are original triples over `vertex_count` original vertices. A triple that repeats a
   /// vertex is no face and stands for its edge only. set_of_vertex: the LOD vertex in which each
   /// original starts; empty: all in vertex 0.
-  SplitOracle(uint32_t vertex_count, std::vector<Face> faces, std::vector<uint32_t> set_of_vertex = {});
+  SplitOracle(uint32_t vertex_count, std::vector<Face> faces,
+              std::vector<uint32_t> set_of_vertex = {});
 
   /// Counts the originals behind each edge and face that the complex has before its first split.
   /// Needed for seams only; an inner complex starts as one vertex.
   void AttachInitial(const Complex& complex);
 
-  /// The split of LOD vertex `vertex`: `moved` are the original vertices of one child, as ranges that
-  /// the caller keeps; it should be the smaller one. `moved_is_second`: they form the second child.
-  void Scan(uint32_t vertex, std::span<const std::span<const uint32_t>> moved, bool moved_is_second);
+  /// The split of LOD vertex `vertex`: `moved` are the original vertices of one child, as ranges
+  /// that the caller keeps; it should be the smaller one. `moved_is_second`: they form the second
+  /// child.
+  void Scan(uint32_t vertex, std::span<const std::span<const uint32_t>> moved,
+            bool moved_is_second);
 
   bool connected() const { return child_edge_count_ > 0; }
   Side NeighbourSide(uint32_t half_edge, uint32_t neighbour) const;

@@ -35,7 +35,8 @@ class BitEncoder {
   bool Code(uint32_t one_in_65536, bool bit) {
     ++decisions_;
     uint64_t range = high_ - low_;
-    uint64_t middle = low_ + (range >> 16) * one_in_65536 + (((range & 0xffff) * one_in_65536) >> 16);
+    uint64_t middle =
+        low_ + (range >> 16) * one_in_65536 + (((range & 0xffff) * one_in_65536) >> 16);
     if (bit) {
       high_ = middle;
     } else {
@@ -71,8 +72,8 @@ class BitEncoder {
     high_ = ~uint64_t{0};
     return std::exchange(bytes_, {});
   }
-  /// Decisions coded since the beginning; a segment without any may still be wanted by its layer, and
-  /// one with some may have no bytes.
+  /// Decisions coded since the beginning; a segment without any may still be wanted by its layer,
+  /// and one with some may have no bytes.
   uint64_t decisions() const { return decisions_; }
 
  private:
@@ -101,7 +102,8 @@ class BitDecoder {
 
   bool Code(uint32_t one_in_65536, bool = false) {
     uint64_t range = high_ - low_;
-    uint64_t middle = low_ + (range >> 16) * one_in_65536 + (((range & 0xffff) * one_in_65536) >> 16);
+    uint64_t middle =
+        low_ + (range >> 16) * one_in_65536 + (((range & 0xffff) * one_in_65536) >> 16);
     bool bit = code_ <= middle;
     if (bit) {
       high_ = middle;

@@ -20,9 +20,10 @@ namespace detail {
 /// 2^x for |x| <= 60, relative error below 1e-4.
 inline double FastExp2(double x) {
   double whole = std::floor(x), f = x - whole;
-  double value = 1 + f * (0.69314718 + f * (0.24022651 + f * (0.05550410 + f * (0.00961812 +
-                 f * 0.00133336))));
-  return value * std::bit_cast<double>(static_cast<uint64_t>(1023 + static_cast<int64_t>(whole)) << 52);
+  double value = 1 + f * (0.69314718 +
+                          f * (0.24022651 + f * (0.05550410 + f * (0.00961812 + f * 0.00133336))));
+  return value *
+         std::bit_cast<double>(static_cast<uint64_t>(1023 + static_cast<int64_t>(whole)) << 52);
 }
 
 /// ln(x) for normal x > 0, absolute error below 1e-4.
@@ -90,7 +91,8 @@ class CellModel {
                const std::array<CellPrediction, P>& predictions, int32_t lo, int32_t hi,
                int32_t value, const CellDensity& density = {}) {
     int64_t a = lo, c = int64_t{hi} + 1;
-    double middle = std::clamp(predictions[0].mean, static_cast<double>(lo), static_cast<double>(hi));
+    double middle =
+        std::clamp(predictions[0].mean, static_cast<double>(lo), static_cast<double>(hi));
     int64_t base = static_cast<int64_t>(middle);
     Interval interval{a, c, {}, {}, nullptr};
     interval.density = &density;

@@ -44,15 +44,39 @@ constexpr double Log2Exact(double x) {
 inline void SinCos(double angle, double* sine, double* cosine) {
   double turns = std::floor(angle / (kPi / 2) + 0.5);
   double x = angle - turns * (kPi / 2), square = x * x;
-  double s = x * (1 - square / 6 * (1 - square / 20 * (1 - square / 42 * (1 - square / 72 *
-             (1 - square / 110 * (1 - square / 156 * (1 - square / 210)))))));
-  double c = 1 - square / 2 * (1 - square / 12 * (1 - square / 30 * (1 - square / 56 *
-             (1 - square / 90 * (1 - square / 132 * (1 - square / 182 * (1 - square / 240)))))));
+  double s =
+      x * (1 - square / 6 *
+                   (1 - square / 20 *
+                            (1 - square / 42 *
+                                     (1 - square / 72 *
+                                              (1 - square / 110 *
+                                                       (1 - square / 156 * (1 - square / 210)))))));
+  double c =
+      1 -
+      square / 2 *
+          (1 - square / 12 *
+                   (1 - square / 30 *
+                            (1 - square / 56 *
+                                     (1 - square / 90 *
+                                              (1 - square / 132 *
+                                                       (1 - square / 182 * (1 - square / 240)))))));
   switch (static_cast<int>(static_cast<int64_t>(turns) & 3)) {
-    case 0: *sine = s; *cosine = c; break;
-    case 1: *sine = c; *cosine = -s; break;
-    case 2: *sine = -s; *cosine = -c; break;
-    default: *sine = -c; *cosine = s; break;
+    case 0:
+      *sine = s;
+      *cosine = c;
+      break;
+    case 1:
+      *sine = c;
+      *cosine = -s;
+      break;
+    case 2:
+      *sine = -s;
+      *cosine = -c;
+      break;
+    default:
+      *sine = -c;
+      *cosine = s;
+      break;
   }
 }
 

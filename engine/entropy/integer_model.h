@@ -14,8 +14,7 @@ namespace folprom {
 template <size_t N>
 class IntegerModel {
  public:
-  explicit IntegerModel(std::array<uint32_t, N> sizes)
-      : decisions_(Scaled(sizes), kSlots) {}
+  explicit IntegerModel(std::array<uint32_t, N> sizes) : decisions_(Scaled(sizes), kSlots) {}
 
   /// Unsigned value below 2^32 - 1.
   template <class Coder>

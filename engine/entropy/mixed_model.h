@@ -88,7 +88,8 @@ class MixedModel {
     std::array<int32_t, N + E> weight;
     const double whole = E > 0 ? 0.4 : (N == 1 ? 1.0 : 1.3);
     weight.fill(static_cast<int32_t>(65536 * whole / static_cast<double>(N)));
-    for (size_t i = 0; i < E; ++i) weight[N + i] = static_cast<int32_t>(65536 * 0.8 / static_cast<double>(E));
+    for (size_t i = 0; i < E; ++i)
+      weight[N + i] = static_cast<int32_t>(65536 * 0.8 / static_cast<double>(E));
     return weight;
   }
   /// A state is a probability in its upper 22 bits and a count of decisions in its lower 10.

@@ -84,9 +84,12 @@ struct CylinderCell {
   }
   bool LiesInUpper(Dimension dimension, const CylinderPoint& point) const {
     switch (dimension) {
-      case kRho: return point.rho >= centre.rho;
-      case kZ: return point.z >= centre.z;
-      default: break;
+      case kRho:
+        return point.rho >= centre.rho;
+      case kZ:
+        return point.z >= centre.z;
+      default:
+        break;
     }
     double turn = point.theta - centre.theta;
     if (frame.cartesian) return turn >= 0;
@@ -95,7 +98,8 @@ struct CylinderCell {
     return turn >= 0;
   }
   void Halve(Dimension dimension, bool upper) {
-    double& middle = dimension == kRho ? centre.rho : (dimension == kTheta ? centre.theta : centre.z);
+    double& middle =
+        dimension == kRho ? centre.rho : (dimension == kTheta ? centre.theta : centre.z);
     double& full = dimension == kRho ? width.rho : (dimension == kTheta ? width.theta : width.z);
     full = full / 2;
     middle = upper ? middle + full / 2 : middle - full / 2;

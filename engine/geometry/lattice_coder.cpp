@@ -176,7 +176,8 @@ Int3 LatticeCoder::Refine(Coder& coder, uint32_t vertex, const Int3& known, cons
       uint32_t shift = shifts[axis];
       int32_t cell = At(result, axis) >> shift;
       double size = static_cast<double>(uint64_t{1} << shift);
-      double lean = (is_normal ? Dot(ring.mean, ring.normal) / ring.normal[axis] : ring.mean[axis]) / size;
+      double lean =
+          (is_normal ? Dot(ring.mean, ring.normal) / ring.normal[axis] : ring.mean[axis]) / size;
       constexpr std::array<double, 10> kBounds{-8, -4, -2, -1, -0.3, 0.3, 1, 2, 4, 8};
       uint32_t context = (is_normal ? 12u : 0u) + Bucket(lean, kBounds);
       bool upper = false;

@@ -1,7 +1,7 @@
 // Positions on the integer lattice: a new vertex beside an old one, and further bits of known ones.
 //
-// What is known of a coordinate are its upper bits: a cell of 2^shift lattice steps. So positions end
-// exact, and precision arrives when the level of detail can use it.
+// What is known of a coordinate are its upper bits: a cell of 2^shift lattice steps. So positions
+// end exact, and precision arrives when the level of detail can use it.
 #pragma once
 
 #include <array>

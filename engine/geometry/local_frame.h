@@ -48,8 +48,8 @@ struct Neighbourhood {
   };
   std::vector<Direction> directions;
 
-  /// What the surface is likely to be like in a direction: the neighbours weighed by how nearly they
-  /// lie that way. All 0 without neighbours.
+  /// What the surface is likely to be like in a direction: the neighbours weighed by how nearly
+  /// they lie that way. All 0 without neighbours.
   struct Outlook {
     double rho = 0;
     double bend = 0;

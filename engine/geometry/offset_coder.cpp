@@ -87,8 +87,8 @@ OffsetCoder::OffsetCoder(const OffsetSettings& settings)
                  {Places(settings.children) * kReachBuckets, kSizeBuckets * 6})),
       x_(Where(settings.cartesian,
                {Places(settings.children) * kSignedBuckets, kSignedBuckets * 6})),
-      y_(Where(settings.cartesian, {Places(settings.children) * kSignedBuckets,
-                                    kSignedBuckets * kSignedBuckets})),
+      y_(Where(settings.cartesian,
+               {Places(settings.children) * kSignedBuckets, kSignedBuckets * kSignedBuckets})),
       z_({7 * 5 * 2 * settings.children, kSizeBuckets * 6}),
       half_({3 * 16}) {}
 
@@ -146,7 +146,8 @@ uint32_t OffsetCoder::CodeChildCount(Coder& coder, const SetContext& context, ui
   int bucket = HalfOctave(static_cast<uint64_t>(std::min(squared, 9e18)));
   uint32_t spacing =
       static_cast<uint32_t>(std::clamp(bucket, 0, static_cast<int>(kSpacingBuckets) - 1));
-  uint32_t around = std::min(context.leaf_neighbours, 3u) * 4 + std::min(context.other_neighbours, 3u);
+  uint32_t around =
+      std::min(context.leaf_neighbours, 3u) * 4 + std::min(context.other_neighbours, 3u);
   if (is_leaf_.Code(coder, {spacing, around * 16 + std::min(spacing / 8, 15u)}, 0, count == 1)) {
     return 1;
   }
@@ -177,8 +178,7 @@ uint32_t OffsetCoder::CodeTheta(Coder& coder, const Siblings& siblings, uint32_t
   int32_t residual = static_cast<int32_t>(index) - predicted;
   if (meters->tally) meters->tally->theta.Add(residual, 1);
   residual = theta_.CodeSigned(
-      coder,
-      {Place(siblings.count, i), SizeBucket(siblings.rho_before) * settings_.children + i},
+      coder, {Place(siblings.count, i), SizeBucket(siblings.rho_before) * settings_.children + i},
       residual);
   return static_cast<uint32_t>(
       std::clamp<int64_t>(int64_t{predicted} + residual, 0, static_cast<int64_t>(levels) - 1));
@@ -274,8 +274,8 @@ void OffsetCoder::CodeOffsets(Coder& coder, const Neighbourhood& at, const Offse
 }
 
 template <class Coder>
-bool OffsetCoder::CodeHalf(Coder& coder, const CylinderCell& cell, CylinderCell::Dimension dimension,
-                           bool upper) {
+bool OffsetCoder::CodeHalf(Coder& coder, const CylinderCell& cell,
+                           CylinderCell::Dimension dimension, bool upper) {
   // Near the axis the outer half of a ring is larger: how many widths out is worth a context.
   bool curved = !cell.frame.cartesian && cell.width.rho > 0;
   double rings = curved ? cell.centre.rho / cell.width.rho : 0;
@@ -283,13 +283,13 @@ bool OffsetCoder::CodeHalf(Coder& coder, const CylinderCell& cell, CylinderCell:
   return half_.Code(coder, {static_cast<uint32_t>(dimension) * 16 + ring}, 0, upper);
 }
 
-#define FOLPROM_INSTANTIATE(Coder)                                                                \
-  template uint32_t OffsetCoder::CodeChildCount<Coder>(Coder&, const SetContext&, uint32_t);      \
-  template void OffsetCoder::CodeOffsets<Coder>(Coder&, const Neighbourhood&, const OffsetSteps&, \
-                                                uint32_t, std::vector<OffsetIndex>*,              \
-                                                OffsetMeters*);                                   \
-  template bool OffsetCoder::CodeHalf<Coder>(Coder&, const CylinderCell&,                         \
-                                             CylinderCell::Dimension, bool);
+#define FOLPROM_INSTANTIATE(Coder)                                                                 \
+  template uint32_t OffsetCoder::CodeChildCount<Coder>(Coder&, const SetContext&, uint32_t);       \
+  template void OffsetCoder::CodeOffsets<Coder>(Coder&, const Neighbourhood&, const OffsetSteps&,  \
+                                                uint32_t, std::vector<OffsetIndex>*,               \
+                                                OffsetMeters*);                                    \
+  template bool OffsetCoder::CodeHalf<Coder>(Coder&, const CylinderCell&, CylinderCell::Dimension, \
+                                             bool);
 FOLPROM_INSTANTIATE(BitEncoder)
 FOLPROM_INSTANTIATE(BitDecoder)
 #undef FOLPROM_INSTANTIATE

@@ -23,8 +23,8 @@ struct OffsetSettings {
   bool cartesian = false;  ///< x, y instead of rho, theta
 };
 
-/// Offset of one child in steps of its dimension. Cartesian: theta and rho hold x and y plus 2^31, so
-/// that they sort as x and y do.
+/// Offset of one child in steps of its dimension. Cartesian: theta and rho hold x and y plus 2^31,
+/// so that they sort as x and y do.
 struct OffsetIndex {
   uint32_t theta = 0;  ///< below Q
   uint32_t rho = 0;
@@ -71,8 +71,8 @@ class OffsetCoder {
   template <class Coder>
   uint32_t CodeChildCount(Coder& coder, const SetContext& context, uint32_t count);
 
-  /// Offsets in the lexicographic order of (theta, rho, z); resized to `count`. `meters` receive the
-  /// costs.
+  /// Offsets in the lexicographic order of (theta, rho, z); resized to `count`. `meters` receive
+  /// the costs.
   template <class Coder>
   void CodeOffsets(Coder& coder, const Neighbourhood& at, const OffsetSteps& steps, uint32_t count,
                    std::vector<OffsetIndex>* offsets, OffsetMeters* meters);

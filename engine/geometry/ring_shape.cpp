@@ -7,7 +7,8 @@ namespace folprom {
 namespace {
 
 void FitBend(RingShape* shape, std::span<const Vector3> local) {
-  // Least squares for (uu, uv, vv) in units of the spacing, with a ridge that keeps thin rings tame.
+  // Least squares for (uu, uv, vv) in units of the spacing, with a ridge that keeps thin rings
+  // tame.
   double a[3][4] = {};
   double unit = shape->spacing > 0 ? 1 / shape->spacing : 0;
   for (const Vector3& p : local) {

@@ -23,25 +23,27 @@ struct FanSums {
 
 /// Lattice units, relative to the vertex. Exact to repeat: + - * / and sqrt in a fixed order.
 struct RingShape {
-  uint32_t count = 0;          ///< neighbours
-  double spacing = 0;          ///< mean distance of the neighbours
+  uint32_t count = 0;  ///< neighbours
+  double spacing = 0;  ///< mean distance of the neighbours
   /// The neighbours, as many as are looked at.
   std::array<Vector3, 32> around;
-  Vector3 mean{0, 0, 0};       ///< of the neighbours
-  Vector3 direction{0, 0, 0};  ///< mean of the unit vectors to the neighbours, times the spacing
+  Vector3 mean{0, 0, 0};         ///< of the neighbours
+  Vector3 direction{0, 0, 0};    ///< mean of the unit vectors to the neighbours, times the spacing
   Vector3 area_centre{0, 0, 0};  ///< centroid of the faces; the mean where there is none
   Vector3 rim_centre{0, 0, 0};   ///< centroid of the edges opposite to the vertex; same
-  Vector3 reach{0, 0, 0};      ///< mean of the neighbours weighted by their distance over the spacing
+  Vector3 reach{0, 0, 0};  ///< mean of the neighbours weighted by their distance over the spacing
   std::array<double, 6> covariance{};  ///< xx xy xz yy yz zz of the neighbours around their mean
-  Vector3 normal{0, 0, 1};     ///< unit
-  Vector3 tangent{1, 0, 0};    ///< unit, in the tangent plane
-  std::array<double, 3> bend{};  ///< height = bend . (u u, u v, v v)
-  double fit_error = 0;        ///< root mean square of what the quadric leaves of the heights
-  double height_range = 0;     ///< of the neighbours and the vertex over the tangent plane
-  uint32_t dominant = 2;       ///< axis nearest to the normal
+  Vector3 normal{0, 0, 1};             ///< unit
+  Vector3 tangent{1, 0, 0};            ///< unit, in the tangent plane
+  std::array<double, 3> bend{};        ///< height = bend . (u u, u v, v v)
+  double fit_error = 0;     ///< root mean square of what the quadric leaves of the heights
+  double height_range = 0;  ///< of the neighbours and the vertex over the tangent plane
+  uint32_t dominant = 2;    ///< axis nearest to the normal
 
   /// Height of the quadric over the tangent plane.
-  double HeightAt(double u, double v) const { return bend[0] * u * u + bend[1] * u * v + bend[2] * v * v; }
+  double HeightAt(double u, double v) const {
+    return bend[0] * u * u + bend[1] * u * v + bend[2] * v * v;
+  }
   /// Offset along the dominant axis at which the quadric is met, given those along the two others.
   double MeetQuadric(const Vector3& offset) const;
 };

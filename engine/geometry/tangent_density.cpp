@@ -30,7 +30,8 @@ double Flat(const Vector3& normal, uint32_t axis) {
 
 }  // namespace
 
-TangentDensity::TangentDensity() : place_(kEccentricities * kCounts), far_(kCounts), pair_(kCounts) {
+TangentDensity::TangentDensity()
+    : place_(kEccentricities * kCounts), far_(kCounts), pair_(kCounts) {
   for (auto& table : place_) table.fill(0);
   for (auto& table : far_) table.fill(0);
   for (auto& table : pair_) table.fill({});

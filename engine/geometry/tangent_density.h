@@ -18,7 +18,8 @@ class TangentDensity {
  public:
   TangentDensity();
 
-  /// Before a vertex: weighs the cells. ahead: where the new vertex is expected, relative to the old.
+  /// Before a vertex: weighs the cells. ahead: where the new vertex is expected, relative to the
+  /// old.
   void Prepare(const RingShape& ring, const Vector3& ahead);
   /// Density of the offset along an axis of the lattice, lattice units.
   void First(uint32_t axis, AxisDensity* density) const;

@@ -75,7 +75,9 @@ class LloydBuilder {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
-  static double Length(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
+  static double Length(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return (a - b).norm();
+  }
   double Distance(const Point& point, const Centre& centre) const {
     double euclidean = Length(point.position, centre.position);
     if (normal_weight_ == 0) return euclidean;
@@ -105,7 +107,8 @@ class LloydBuilder {
     for (uint32_t i = begin; i < end; ++i) sum = sum + Length(points_[i].normal, mean.normal);
     double base = 1 - sum / (end - begin) / 2;
     if (!(base > 0)) return 1;
-    double power = ExpExact(std::max(settings_.metric_b * Log2Exact(base) * 0.6931471805599453, -39.0));
+    double power =
+        ExpExact(std::max(settings_.metric_b * Log2Exact(base) * 0.6931471805599453, -39.0));
     return std::clamp(1 - settings_.metric_a * power, 0.0, 1.0);
   }
 
@@ -120,9 +123,7 @@ class LloydBuilder {
       sum[1] += p.y;
       sum[2] += p.z;
     }
-    auto centre = [&](int axis) {
-      return static_cast<int32_t>((sum[axis] + count / 2) / count);
-    };
+    auto centre = [&](int axis) { return static_cast<int32_t>((sum[axis] + count / 2) / count); };
     Int3 middle{centre(0), centre(1), centre(2)};
     if (settings_.representative == Representative::kCentre) return middle;
     if (settings_.representative == Representative::kQuadric) return QuadricPoint(node, middle);
@@ -130,9 +131,9 @@ class LloydBuilder {
     return chosen == node.end ? middle : positions_[order_[chosen]];
   }
 
-  /// The point nearest to the tangent planes of the members, in the least-squares sense, with a pull
-  /// towards the centre; inside the box of all vertices. Faces cut below a convex surface, and centres
-  /// lie below it too; this lies as far above.
+  /// The point nearest to the tangent planes of the members, in the least-squares sense, with a
+  /// pull towards the centre; inside the box of all vertices. Faces cut below a convex surface, and
+  /// centres lie below it too; this lies as far above.
   Int3 QuadricPoint(const SetTree::Node& node, const Int3& centre) const {
     const Eigen::Vector3d middle = scale_ * Eigen::Vector3d(centre.x, centre.y, centre.z);
     Eigen::Matrix3d planes = Eigen::Matrix3d::Zero();
@@ -217,7 +218,8 @@ class LloydBuilder {
     }
     nodes_[index].first_child = first;
     nodes_[index].child_count = children;
-    for (uint32_t i = 0; i < children; ++i) nodes_.push_back({bounds[i], bounds[i + 1], 0, 0, {}, 0, 0});
+    for (uint32_t i = 0; i < children; ++i)
+      nodes_.push_back({bounds[i], bounds[i + 1], 0, 0, {}, 0, 0});
     return first;
   }
 
@@ -239,9 +241,9 @@ class LloydBuilder {
     return std::all_of(sizes.begin(), sizes.begin() + children, [](uint32_t n) { return n > 0; });
   }
 
-  /// Cuts the part that is widest along a coordinate axis at its mean, until there are enough parts;
-  /// their means are the first centres. Farthest points as seeds leave outliers as sets of their own
-  /// high up in the tree, where positions are still coarse.
+  /// Cuts the part that is widest along a coordinate axis at its mean, until there are enough
+  /// parts; their means are the first centres. Farthest points as seeds leave outliers as sets of
+  /// their own high up in the tree, where positions are still coarse.
   void Seed(uint32_t begin, uint32_t end, uint32_t children,
             std::array<Centre, kMostChildren>* centres) {
     std::fill(cluster_.begin() + begin, cluster_.begin() + end, uint8_t{0});
@@ -334,8 +336,7 @@ class LloydBuilder {
     (*bounds)[children] = end;
     std::copy(scratch_points_.begin() + begin, scratch_points_.begin() + end,
               points_.begin() + begin);
-    std::copy(scratch_order_.begin() + begin, scratch_order_.begin() + end,
-              order_.begin() + begin);
+    std::copy(scratch_order_.begin() + begin, scratch_order_.begin() + end, order_.begin() + begin);
   }
 
   const CodecSettings& settings_;

@@ -26,9 +26,10 @@ struct Quadric {
     weight = weight + other.weight;
   }
   double At(const std::array<double, 3>& p) const {
-    const double value = p[0] * (terms[0] * p[0] + 2 * (terms[1] * p[1] + terms[2] * p[2] + terms[3])) +
-                         p[1] * (terms[4] * p[1] + 2 * (terms[5] * p[2] + terms[6])) +
-                         p[2] * (terms[7] * p[2] + 2 * terms[8]) + terms[9];
+    const double value =
+        p[0] * (terms[0] * p[0] + 2 * (terms[1] * p[1] + terms[2] * p[2] + terms[3])) +
+        p[1] * (terms[4] * p[1] + 2 * (terms[5] * p[2] + terms[6])) +
+        p[2] * (terms[7] * p[2] + 2 * terms[8]) + terms[9];
     return value > 0 ? value : 0;
   }
 };

@@ -19,8 +19,8 @@ constexpr uint32_t kNobody = 0xffffffff;
 constexpr size_t kMostCandidates = 64;
 /// Planes through open edges, perpendicular to the face, weigh this much more than the face.
 constexpr double kBoundaryWeight = 4;
-/// A contraction that turns a face over or pinches the surface waits until all others cost this much
-/// more.
+/// A contraction that turns a face over or pinches the surface waits until all others cost this
+/// much more.
 constexpr double kForbiddenFactor = 64;
 /// Costs below this are equal: keys are floats, which round them to 0.
 constexpr double kLeastKey = 1e-30;
@@ -99,7 +99,8 @@ class Contractor {
   };
 
   uint32_t AddPoint(const Int3& p) {
-    points_.push_back({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+    points_.push_back(
+        {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
     return static_cast<uint32_t>(points_.size() - 1);
   }
 
@@ -176,8 +177,8 @@ class Contractor {
     }
   }
 
-  /// The distinct neighbours of v go to ring_. Faces that have collapsed to an edge stay in the star
-  /// only while no other face of it joins v to the same neighbour.
+  /// The distinct neighbours of v go to ring_. Faces that have collapsed to an edge stay in the
+  /// star only while no other face of it joins v to the same neighbour.
   void CollectRing(uint32_t v) {
     std::vector<uint32_t>& star = stars_[v];
     ring_.clear();
@@ -229,9 +230,7 @@ class Contractor {
     for (const Candidate& candidate : candidates_) least = std::min(least, candidate.cost);
     Push(v, least);
   }
-  void Push(uint32_t v, double key) {
-    queue_.push({static_cast<float>(key), v, ++version_[v]});
-  }
+  void Push(uint32_t v, double key) { queue_.push({static_cast<float>(key), v, ++version_[v]}); }
 
   /// Contracts v into its best neighbour, or puts it back with a higher key.
   void Take(uint32_t v, float key) {
@@ -289,8 +288,8 @@ class Contractor {
     return CommonNeighbours(target) <= shared;
   }
 
-  /// How many vertices of ring_ are neighbours of target; looks through whichever stars are smaller,
-  /// since a hub's is looked at once for each of its spokes.
+  /// How many vertices of ring_ are neighbours of target; looks through whichever stars are
+  /// smaller, since a hub's is looked at once for each of its spokes.
   uint32_t CommonNeighbours(uint32_t target) {
     uint32_t common = 0;
     size_t around = 0;
@@ -341,8 +340,8 @@ class Contractor {
   /// area: of the surface that the error applies to.
   void Join(uint32_t kept, uint32_t removed, double error, double area) {
     // A set is due no later than the sets inside it.
-    double distortion = std::max({area * error, DistortionOf(top_node_[kept]),
-                                  DistortionOf(top_node_[removed])});
+    double distortion =
+        std::max({area * error, DistortionOf(top_node_[kept]), DistortionOf(top_node_[removed])});
     merges_.push_back({top_node_[kept], top_node_[removed], error, distortion});
     top_node_[kept] = own_ + static_cast<uint32_t>(merges_.size()) - 1;
   }
@@ -367,7 +366,8 @@ class Contractor {
     double side = std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2], 1.0});
     std::vector<uint32_t> code(own_, 0);
     for (uint32_t v : live) code[v] = MortonCode(points_[v], lo, 1023 / side);
-    std::stable_sort(live.begin(), live.end(), [&](uint32_t a, uint32_t b) { return code[a] < code[b]; });
+    std::stable_sort(live.begin(), live.end(),
+                     [&](uint32_t a, uint32_t b) { return code[a] < code[b]; });
     while (live.size() > 1) {
       std::vector<uint32_t> next;
       for (size_t i = 0; i < live.size(); i += 2) {

@@ -16,7 +16,7 @@ class SetTree {
   struct Node {
     uint32_t begin = 0, end = 0;  ///< vertices, into order()
     uint32_t first_child = 0;
-    uint32_t child_count = 0;     ///< 0 or 2 .. K, consecutive nodes
+    uint32_t child_count = 0;  ///< 0 or 2 .. K, consecutive nodes
     Int3 representative;
     double distortion = 0;  ///< SubtreeTruth::Distortion
     double error = 0;       ///< SubtreeTruth::SplitError

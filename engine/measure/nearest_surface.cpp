@@ -36,8 +36,8 @@ struct Search {
 };
 
 #if defined(__SANITIZE_THREAD__)
-/// Repeats, where the thread sanitizer sees it, the order in which oneTBB hands the mesh to Embree's
-/// threads and back.
+/// Repeats, where the thread sanitizer sees it, the order in which oneTBB hands the mesh to
+/// Embree's threads and back.
 std::atomic<uint32_t> order_of_handover{0};
 void HandOver() { order_of_handover.fetch_add(1, std::memory_order_release); }
 void TakeOver() { static_cast<void>(order_of_handover.load(std::memory_order_acquire)); }

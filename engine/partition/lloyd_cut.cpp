@@ -60,8 +60,8 @@ Vector MainAxis(std::span<const Site> sites, const Vector& mean) {
   Vector axis{};
   axis[longest] = 1;
   for (int i = 0; i < kPowerIterations; ++i) {
-    const Vector next = Normalised(
-        {Dot(covariance[0], axis), Dot(covariance[1], axis), Dot(covariance[2], axis)});
+    const Vector next =
+        Normalised({Dot(covariance[0], axis), Dot(covariance[1], axis), Dot(covariance[2], axis)});
     if (Dot(next, next) == 0) break;
     axis = next;
   }
@@ -181,8 +181,8 @@ double LloydCut::Distance(const Site& site, const Centre& centre) const {
 
 double LloydCut::WantedWeight(double natural, uint32_t subtrees, Halves* halves) const {
   const double full = static_cast<double>(settings_.subtree_vertices);
-  const double smallest = std::min(std::max(kSmallestPart * full, kSmallestShare * total_),
-                                   total_ / 2);
+  const double smallest =
+      std::min(std::max(kSmallestPart * full, kSmallestShare * total_), total_ / 2);
   const double wanted = std::clamp(natural, smallest, total_ - smallest);
   const double all = std::max<double>(subtrees, 2);
   const double first = std::clamp(std::floor(wanted / total_ * all + 0.5), 1.0, all - 1);

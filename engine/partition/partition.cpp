@@ -30,7 +30,7 @@ class SpilledScan final : public PartitionedScan {
         positions_(spill, "partition.positions", subtrees_.size(),
                    BufferBytes(subtrees_.size(), memory_bytes)),
         faces_(spill, "partition.faces", subtrees_.size(),
-                     BufferBytes(subtrees_.size(), memory_bytes / 2)),
+               BufferBytes(subtrees_.size(), memory_bytes / 2)),
         cross_faces_(spill, "partition.cross", subtrees_.size(),
                      BufferBytes(subtrees_.size(), memory_bytes / 2)) {}
 
@@ -79,8 +79,7 @@ class SpilledScan final : public PartitionedScan {
 
 std::unique_ptr<PartitionedScan> Run(Job& job) {
   const uint64_t vertices = job.source.vertex_count(), triangles = job.source.triangle_count();
-  const bool needs_normals =
-      vertices > job.settings.subtree_vertices && job.settings.normal_metric;
+  const bool needs_normals = vertices > job.settings.subtree_vertices && job.settings.normal_metric;
   job.progress.StartStage("partition", 2 * vertices + (needs_normals ? 2 : 1) * triangles);
 
   OffsetFile records(job.spill, "partition.vertices");
@@ -90,8 +89,7 @@ std::unique_ptr<PartitionedScan> Run(Job& job) {
   VoxelSplit split = SplitVoxels(voxels, normals, job.lattice, job.settings);
   job.progress.ThrowIfCancelled();
 
-  auto scan = std::make_unique<SpilledScan>(job.spill, std::move(split.subtrees),
-                                            job.memory_bytes);
+  auto scan = std::make_unique<SpilledScan>(job.spill, std::move(split.subtrees), job.memory_bytes);
   scan->Fill(job, records, split.subtree);
   records.Remove();
   return scan;

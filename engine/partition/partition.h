@@ -15,7 +15,8 @@
 
 namespace folprom {
 
-/// The part of the settings that decides where the cuts lie. Nothing here may come from the machine.
+/// The part of the settings that decides where the cuts lie. Nothing here may come from the
+/// machine.
 struct PartitionSettings {
   uint32_t subtree_vertices = 100000;  ///< largest number of vertices in a subtree, at least 1
   double metric_a = 1;                 ///< section 2.1
@@ -33,9 +34,9 @@ struct SubtreeChunk {
 
 struct SubtreeSummary {
   uint32_t vertices = 0;
-  uint64_t faces = 0;        ///< wholly inside
-  uint64_t cross_faces = 0;  ///< touching
-  Int3 box_lo, box_hi;       ///< of its vertices
+  uint64_t faces = 0;                ///< wholly inside
+  uint64_t cross_faces = 0;          ///< touching
+  Int3 box_lo, box_hi;               ///< of its vertices
   std::vector<uint32_t> neighbours;  ///< subtrees that share a face with it, ascending
 };
 
@@ -53,13 +54,14 @@ class PartitionedScan {
   virtual std::span<const VertexRef> vertex_map() const = 0;
 };
 
-/// Pass 0: bounding box. Failure kInput naming vertex and file where a coordinate is NaN or infinite.
+/// Pass 0: bounding box. Failure kInput naming vertex and file where a coordinate is NaN or
+/// infinite.
 Bounds MeasureBounds(const io::MeshSource& source, parallel::Runner& runner,
                      parallel::Progress& progress);
 
-/// Passes 1-3 of the design: voxel statistics (OpenVDB), Lloyd split of the weighted voxels with the
-/// metric of section 2.1, scatter into chunks. The result depends on the scan and the settings only:
-/// not on threads, not on `memory_bytes`, which bounds buffers and resident pages.
+/// Passes 1-3 of the design: voxel statistics (OpenVDB), Lloyd split of the weighted voxels with
+/// the metric of section 2.1, scatter into chunks. The result depends on the scan and the settings
+/// only: not on threads, not on `memory_bytes`, which bounds buffers and resident pages.
 std::unique_ptr<PartitionedScan> PartitionScan(const io::MeshSource& source, const Lattice& lattice,
                                                const PartitionSettings& settings,
                                                uint64_t memory_bytes, parallel::Runner& runner,

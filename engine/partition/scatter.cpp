@@ -100,9 +100,9 @@ void Classify(VertexLookup& lookup, size_t subtree_count, FaceBlock* block) {
       block->faces.Add(a.subtree, Face{a.local, b.local, c.local});
       continue;
     }
-    const CrossFace face{{a, b, c},
-                         {lookup.Position(corner[0]), lookup.Position(corner[1]),
-                          lookup.Position(corner[2])}};
+    const CrossFace face{
+        {a, b, c},
+        {lookup.Position(corner[0]), lookup.Position(corner[1]), lookup.Position(corner[2])}};
     block->cross_faces.push_back(Touched(face));
   }
   block->faces.Sort();

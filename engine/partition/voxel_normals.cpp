@@ -63,8 +63,7 @@ NormalSum UnitNormal(const Int3& a, const Int3& b, const Int3& c) {
 
 }  // namespace
 
-std::vector<NormalSum> CollectNormals(Job& job, const io::MappedFile& records,
-                                      size_t voxel_count) {
+std::vector<NormalSum> CollectNormals(Job& job, const io::MappedFile& records, size_t voxel_count) {
   const std::span<const VertexRecord> vertices = io::MappedArray<VertexRecord>(records);
   ResidentPages resident(records, job.memory_bytes / 8);
   const auto vertex = [&](uint64_t index) -> const VertexRecord& {

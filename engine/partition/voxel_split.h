@@ -13,7 +13,7 @@
 namespace folprom::partition {
 
 struct VoxelSplit {
-  std::vector<uint32_t> subtree;  ///< per voxel; of no meaning for voxels without vertices
+  std::vector<uint32_t> subtree;         ///< per voxel; of no meaning for voxels without vertices
   std::vector<SubtreeSummary> subtrees;  ///< box and vertex count of each
 };
 

@@ -112,8 +112,8 @@ struct Brick {
 
   Brick(const Voxel& voxel, uint32_t index, int64_t limit)
       : origin(voxel.lo), corner(VoxelGrid::BrickOrigin(index)) {
-    const int32_t extent = std::max(
-        {voxel.hi.x - voxel.lo.x, voxel.hi.y - voxel.lo.y, voxel.hi.z - voxel.lo.z});
+    const int32_t extent =
+        std::max({voxel.hi.x - voxel.lo.x, voxel.hi.y - voxel.lo.y, voxel.hi.z - voxel.lo.z});
     const int32_t cells = voxel.count > 8 * limit ? 8 : 4;
     while ((extent >> shift) >= cells) ++shift;
   }

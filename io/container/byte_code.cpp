@@ -15,8 +15,8 @@ void ByteWriter::Bytes(std::span<const uint8_t> bytes) {
 
 void ByteReader::Fail(const std::string& reason) const {
   throw Failure(ErrorKind::kCorrupt, std::string(file_) + ": byte " +
-                                         std::to_string(offset_ + last_) + " (in the table): " +
-                                         reason);
+                                         std::to_string(offset_ + last_) +
+                                         " (in the table): " + reason);
 }
 
 const uint8_t* ByteReader::Next(size_t count) {

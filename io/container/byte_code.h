@@ -27,9 +27,7 @@ void AppendLittleEndian(T value, std::vector<uint8_t>* bytes) {
 }
 
 /// Maps small numbers of both signs, modulo 2^64, to small numbers: 0 -1 1 -2 2 -> 0 1 2 3 4.
-inline uint64_t ZigZag(uint64_t difference) {
-  return (difference << 1) ^ (0 - (difference >> 63));
-}
+inline uint64_t ZigZag(uint64_t difference) { return (difference << 1) ^ (0 - (difference >> 63)); }
 inline uint64_t UnZigZag(uint64_t code) { return (code >> 1) ^ (0 - (code & 1)); }
 
 /// Appends numbers to a growing run of bytes.

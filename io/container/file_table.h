@@ -8,14 +8,19 @@
 
 namespace folprom::io {
 
-inline constexpr uint32_t kFormatVersion = 1;       ///< written, and the newest that is read
+inline constexpr uint32_t kFormatVersion = 1;  ///< written, and the newest that is read
 inline constexpr size_t kMaxLayers = 4096;
 inline constexpr uint64_t kMaxCount = (uint64_t{1} << 48) - 1;  ///< of vertices, and of faces
 inline constexpr uint64_t kMaxSegmentBytes = 0xffffffffu;       ///< of one segment
 
 /// Kinds of coded bits that `info` tells apart.
 enum class BitKind : uint8_t {
-  kSplit = 0, kOffsets, kRefinement, kConnectivity, kExceptions, kSeams
+  kSplit = 0,
+  kOffsets,
+  kRefinement,
+  kConnectivity,
+  kExceptions,
+  kSeams
 };
 inline constexpr size_t kBitKinds = 6;
 
@@ -35,7 +40,7 @@ struct LayerRecord {
 };
 
 struct SubtreeRecord {
-  uint32_t vertices = 0;  ///< of the original mesh
+  uint32_t vertices = 0;            ///< of the original mesh
   std::array<int32_t, 3> box_lo{};  ///< working lattice
   std::array<int32_t, 3> box_hi{};
   /// Subtrees of lower number that share a face with it, ascending.
@@ -50,12 +55,12 @@ enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
 struct FileTable {
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  uint8_t coordinate_type = 0;        ///< io::ScalarType of the output
-  std::array<double, 3> origin{};     ///< lattice
-  double unit = 1;                    ///< lattice
-  std::array<int32_t, 3> extent{};    ///< lattice, 0 .. 2^30 - 1
-  double tolerance = 0;               ///< model units, per axis
-  std::vector<uint8_t> codec;         ///< settings of the coder, meaning known to the engine only
+  uint8_t coordinate_type = 0;      ///< io::ScalarType of the output
+  std::array<double, 3> origin{};   ///< lattice
+  double unit = 1;                  ///< lattice
+  std::array<int32_t, 3> extent{};  ///< lattice, 0 .. 2^30 - 1
+  double tolerance = 0;             ///< model units, per axis
+  std::vector<uint8_t> codec;       ///< settings of the coder, meaning known to the engine only
   MeshDigest digest;
   std::array<uint64_t, kBitKinds> kind_bits{};  ///< bits spent per kind, whole file, rounded
   std::vector<LayerRecord> layers;

@@ -56,14 +56,13 @@ std::span<const uint8_t> TableBytes(std::span<const uint8_t> file_bytes, std::st
   if (present < kTableBegin) {
     FailCut(file, present, "at least " + std::to_string(kTableBegin + kChecksumBytes));
   }
-  const size_t length =
-      LoadLittleEndian<uint32_t>(file_bytes.data() + kTableBegin - kLengthBytes);
+  const size_t length = LoadLittleEndian<uint32_t>(file_bytes.data() + kTableBegin - kLengthBytes);
   const uint64_t needed = uint64_t{kTableBegin} + length + kChecksumBytes;
   if (present < needed) FailCut(file, present, std::to_string(needed));
   const auto guarded = file_bytes.first(kTableBegin + length);
   if (XxHash64(guarded) != LoadLittleEndian<uint64_t>(file_bytes.data() + guarded.size())) {
-    Fail(ErrorKind::kCorrupt, file, "checksum of the table (bytes 0 to " +
-                                        std::to_string(guarded.size()) + ") differs");
+    Fail(ErrorKind::kCorrupt, file,
+         "checksum of the table (bytes 0 to " + std::to_string(guarded.size()) + ") differs");
   }
   return guarded.subspan(kTableBegin);
 }

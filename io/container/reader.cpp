@@ -38,8 +38,7 @@ void ContainerReader::Load(std::span<const uint8_t> bytes, std::string name) {
   table_bytes_ = kTableBegin + coded.size() + kChecksumBytes;
   layout_ = LayoutOf(table_, table_bytes_);
   if (bytes.size() > file_bytes()) {
-    throw Failure(ErrorKind::kCorrupt, name_ + ": " +
-                                           std::to_string(bytes.size() - file_bytes()) +
+    throw Failure(ErrorKind::kCorrupt, name_ + ": " + std::to_string(bytes.size() - file_bytes()) +
                                            " bytes after the end at byte " +
                                            std::to_string(file_bytes()));
   }
@@ -85,9 +84,9 @@ Result<std::span<const uint8_t>> ContainerReader::Segment(size_t layer, size_t s
                      std::to_string(bytes_.size()) + " of " + std::to_string(file_bytes())};
   }
   if (!Intact(group)) {
-    return Error{ErrorKind::kCorrupt, name_ + PlaceOf(layer, subtree, part) +
-                                          "checksum of bytes " + std::to_string(group_begin) +
-                                          " to " + std::to_string(group_end) + " differs"};
+    return Error{ErrorKind::kCorrupt, name_ + PlaceOf(layer, subtree, part) + "checksum of bytes " +
+                                          std::to_string(group_begin) + " to " +
+                                          std::to_string(group_end) + " differs"};
   }
   return bytes_.subspan(begin, size);
 }

@@ -49,9 +49,7 @@ void ForRow(Sizes& sizes, size_t layer, size_t part, size_t subtrees, const Code
 }
 
 /// Length of the exponential Golomb code of order k.
-int CodeBits(uint64_t code, int k) {
-  return 2 * BitWidth(code + (uint64_t{1} << k)) - 1 - k;
-}
+int CodeBits(uint64_t code, int k) { return 2 * BitWidth(code + (uint64_t{1} << k)) - 1 - k; }
 
 /// Order that makes the row shortest, the smallest of several.
 int BestOrder(std::span<const uint64_t> codes) {
@@ -86,9 +84,8 @@ void WriteSizes(std::span<const uint64_t> sizes, size_t layers, size_t subtrees,
   std::vector<uint64_t> codes;
   for (size_t row = 0; row < 2 * layers; ++row) {
     codes.clear();
-    ForRow(sizes, row / 2, row % 2, subtrees, [&](uint64_t prediction, uint64_t size) {
-      codes.push_back(ZigZag(size - prediction));
-    });
+    ForRow(sizes, row / 2, row % 2, subtrees,
+           [&](uint64_t prediction, uint64_t size) { codes.push_back(ZigZag(size - prediction)); });
     const int k = BestOrder(codes);
     bits.Bits(static_cast<uint64_t>(k), kRowParameterBits);
     for (const uint64_t code : codes) WriteCode(code, k, &bits);

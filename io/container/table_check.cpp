@@ -92,8 +92,8 @@ std::string TableFault(const FileTable& table) {
   if (table.vertices > kMaxCount || table.faces > kMaxCount) {
     return "2^48 vertices or faces, or more";
   }
-  for (const auto& fault : {LatticeFault(table), LayersFault(table), SubtreesFault(table),
-                            SegmentsFault(table)}) {
+  for (const auto& fault :
+       {LatticeFault(table), LayersFault(table), SubtreesFault(table), SegmentsFault(table)}) {
     if (!fault.empty()) return fault;
   }
   return {};

@@ -73,12 +73,11 @@ std::span<const uint8_t> CheckedSegment(const FileTable& table, const SegmentByt
   const auto bytes = segment(layer, subtree, part);
   const uint64_t announced = table.segment_bytes[table.SegmentIndex(layer, subtree, part)];
   if (bytes.size() == announced) return bytes;
-  throw Failure(ErrorKind::kInternal,
-                "segment of layer " + std::to_string(layer) + ", subtree " +
-                    std::to_string(subtree) +
-                    (part == SegmentPart::kInner ? ", inner has " : ", seam has ") +
-                    std::to_string(bytes.size()) + " bytes, the table says " +
-                    std::to_string(announced));
+  throw Failure(
+      ErrorKind::kInternal,
+      "segment of layer " + std::to_string(layer) + ", subtree " + std::to_string(subtree) +
+          (part == SegmentPart::kInner ? ", inner has " : ", seam has ") +
+          std::to_string(bytes.size()) + " bytes, the table says " + std::to_string(announced));
 }
 
 template <class Out>

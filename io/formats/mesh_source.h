@@ -12,7 +12,14 @@
 namespace folprom::io {
 
 enum class ScalarType : uint8_t {
-  kInt8 = 0, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64
+  kInt8 = 0,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kFloat32,
+  kFloat64
 };
 
 /// Three vertex indices of the file, in the order of the file.
@@ -23,7 +30,8 @@ struct SourceNotes {
   uint64_t polygons_triangulated = 0;  ///< faces of more than three corners, split as a fan
   uint64_t polygons_dropped = 0;       ///< faces of fewer than three corners
   uint64_t strips = 0;                 ///< triangle strips unrolled
-  std::vector<std::string> ignored_properties;  ///< vertex/face properties not coded, "element.name"
+  std::vector<std::string>
+      ignored_properties;  ///< vertex/face properties not coded, "element.name"
 };
 
 /// A scan file, mapped into memory and parsed on demand. Thread-safe after Open: every Read may be
@@ -53,7 +61,8 @@ class MeshSource {
 
   virtual size_t triangle_block_count() const = 0;
   /// Replaces *triangles by the block's triangles (at most about 65,536, more only for one huge
-  /// polygon). kInput, with the face's index, where an index is negative or not below vertex_count().
+  /// polygon). kInput, with the face's index, where an index is negative or not below
+  /// vertex_count().
   virtual Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const = 0;
 
   virtual const SourceNotes& notes() const = 0;

@@ -18,7 +18,8 @@ namespace folprom::io {
 /// Not thread-safe.
 class PlyWriter {
  public:
-  /// coordinate_type: kFloat32 or kFloat64. `force`: may replace an existing file; kOutput otherwise.
+  /// coordinate_type: kFloat32 or kFloat64. `force`: may replace an existing file; kOutput
+  /// otherwise.
   static Result<std::unique_ptr<PlyWriter>> Create(const std::string& path, uint64_t vertex_count,
                                                    uint64_t face_count, ScalarType coordinate_type,
                                                    bool force);

@@ -144,9 +144,9 @@ TEST_F(Config, FlagsWinOverTheFileAndTheFileOverDefaults) {
 
 TEST_F(Config, SizesAreReadInEveryForm) {
   const std::vector<std::pair<std::string, std::string>> sizes = {
-      {"512MiB", "512MiB"}, {"2GiB", "2GiB"},         {"2G", "2GiB"},
-      {"2g", "2GiB"},       {"1e9", "1000000000"},    {"1GB", "1000000000"},
-      {"1.5KiB", "1536"},   {"1073741824", "1GiB"},   {"1TiB", "1TiB"}};
+      {"512MiB", "512MiB"}, {"2GiB", "2GiB"},       {"2G", "2GiB"},
+      {"2g", "2GiB"},       {"1e9", "1000000000"},  {"1GB", "1000000000"},
+      {"1.5KiB", "1536"},   {"1073741824", "1GiB"}, {"1TiB", "1TiB"}};
   for (const auto& [text, printed] : sizes) {
     const toml::table root = toml::parse(Effective({"-M", text}).out);
     EXPECT_EQ(root["encode"]["memory"].value<std::string>(), printed) << text;

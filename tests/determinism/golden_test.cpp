@@ -13,8 +13,8 @@
 namespace folprom::support {
 namespace {
 
-/// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change of
-/// the format: renew these together with FORMAT.md.
+/// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
+/// of the format: renew these together with FORMAT.md.
 constexpr uint64_t kDefaultHash = 0x8c6cc1540d9683e1;
 constexpr uint64_t kPaperHash = 0xdf049bc1c914a0b;
 constexpr uint64_t kQuadricHash = 0x9cbea5487d48e6c8;

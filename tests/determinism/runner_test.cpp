@@ -25,7 +25,8 @@ std::vector<Way> Ways(size_t shuffles) {
   constexpr uint64_t kMiB = uint64_t{1} << 20;
   std::vector<Way> ways;
   for (int threads : {1, 2, 3, 8}) {
-    ways.push_back({std::to_string(threads) + " threads", parallel::MakeTbbRunner(threads), 2048 * kMiB});
+    ways.push_back(
+        {std::to_string(threads) + " threads", parallel::MakeTbbRunner(threads), 2048 * kMiB});
   }
   for (uint64_t seed = 1; seed <= shuffles; ++seed) {
     ways.push_back({"shuffled with seed " + std::to_string(seed),

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/codec/layer_reader.h"
-#include "engine/codec/tree_truth.h"
 #include "engine/codec/subtree_coder.h"
+#include "engine/codec/tree_truth.h"
 #include "engine/entropy/bit_coder.h"
 #include "engine/hierarchy/lloyd_tree.h"
 #include "engine/mesh/lattice.h"

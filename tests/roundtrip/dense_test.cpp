@@ -46,7 +46,8 @@ TEST(DenseTest, RandomFacesByTheHundredThousandAreCodedAtEveryLod) {
   options.bits = 16;
   ExpectGoodAtEveryLod(folder.File("scan.ply"), folder, options, 8);
   EXPECT_EQ(DifferenceOf(mesh, LodOf(folder.File("dense.folp")),
-                         Verify(folder.File("dense.folp"), "").tolerance), "");
+                         Verify(folder.File("dense.folp"), "").tolerance),
+            "");
 }
 
 TEST(DenseTest, RandomFacesAcrossSubtreesAreCodedAtEveryLod) {
@@ -58,7 +59,8 @@ TEST(DenseTest, RandomFacesAcrossSubtreesAreCodedAtEveryLod) {
   options.codec.subtree_vertices = 200;
   ExpectGoodAtEveryLod(folder.File("scan.ply"), folder, options, 4);
   EXPECT_EQ(DifferenceOf(mesh, LodOf(folder.File("dense.folp")),
-                         Verify(folder.File("dense.folp"), "").tolerance), "");
+                         Verify(folder.File("dense.folp"), "").tolerance),
+            "");
 }
 
 TEST(DenseTest, ScanWithThirtyThousandNonManifoldEdgesIsCodedAtEveryLod) {

@@ -42,9 +42,9 @@ Triple SortedCorners(Triple f) {
 
 /// What an LOD must be: the original mesh seen through the sets of its vertices.
 struct Image {
-  std::vector<Edge> edges;       ///< ascending, each once
-  std::vector<Triple> faces;     ///< distinct corners, unordered, ascending, each once
-  std::vector<Triple> all_faces; ///< every face with its orientation, ascending
+  std::vector<Edge> edges;        ///< ascending, each once
+  std::vector<Triple> faces;      ///< distinct corners, unordered, ascending, each once
+  std::vector<Triple> all_faces;  ///< every face with its orientation, ascending
 };
 
 Image ImageOf(const Mesh& original, const std::vector<uint64_t>& representative) {

@@ -120,7 +120,8 @@ TEST_F(RegionTest, OfOnePointHoldsTheLodVertexThere) {
   for (uint32_t layers = 1; layers <= lods.size(); layers += 2) {
     const std::vector<Point>& positions = lods[layers - 1].positions;
     for (size_t v = 0; v < positions.size(); v += 1 + positions.size() / 25) {
-      ExpectPart(lods[layers - 1], {"Vertex" + std::to_string(v), positions[v], positions[v]}, layers);
+      ExpectPart(lods[layers - 1], {"Vertex" + std::to_string(v), positions[v], positions[v]},
+                 layers);
     }
   }
 }

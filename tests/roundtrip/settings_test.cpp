@@ -31,8 +31,8 @@ std::string NameOf(std::string_view key, double value) {
   return text;
 }
 
-/// Each key of the config at both ends of its range, at each choice, on and off; all else as it is by
-/// default.
+/// Each key of the config at both ends of its range, at each choice, on and off; all else as it is
+/// by default.
 std::vector<Case> EverySetting() {
   std::vector<Case> cases;
   for (const SettingKey& key : SettingKeys()) {
@@ -43,7 +43,8 @@ std::vector<Case> EverySetting() {
           if constexpr (std::is_same_v<Value, bool>) values = {0, 1};
           if constexpr (std::is_enum_v<Value>) {
             values.clear();
-            for (size_t i = 0; i < key.choices.size(); ++i) values.push_back(static_cast<double>(i));
+            for (size_t i = 0; i < key.choices.size(); ++i)
+              values.push_back(static_cast<double>(i));
           }
           for (double value : values) {
             Case one{NameOf(key.name, value), {}};
@@ -149,7 +150,8 @@ TEST_P(SettingsTest, BringsANonManifoldSoupBack) {
 
 auto NameOfCase = [](const auto& info) { return info.param.name; };
 INSTANTIATE_TEST_SUITE_P(Key, SettingsTest, ::testing::ValuesIn(EverySetting()), NameOfCase);
-INSTANTIATE_TEST_SUITE_P(Combination, SettingsTest, ::testing::ValuesIn(Combinations()), NameOfCase);
+INSTANTIATE_TEST_SUITE_P(Combination, SettingsTest, ::testing::ValuesIn(Combinations()),
+                         NameOfCase);
 
 }  // namespace
 }  // namespace folprom::support

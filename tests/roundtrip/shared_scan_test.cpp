@@ -54,18 +54,21 @@ std::vector<std::string> ScansOrNone() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, SharedScanTest,
-    ::testing::Combine(::testing::ValuesIn(ScansOrNone()), ::testing::Values(12u, 16u),
-                       ::testing::Values(kOneSubtree, 20000u)),
-    [](const auto& given) {
-      std::string file = std::get<0>(given.param);
-      std::string name = file.empty() ? "NoData" : std::filesystem::path(file).stem().string();
-      for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-      uint32_t vertices = std::get<2>(given.param);
-      return name + "_" + std::to_string(std::get<1>(given.param)) + "Bits_" +
-             (vertices == kOneSubtree ? "OneSubtree" : "Subtrees");
-    });
+INSTANTIATE_TEST_SUITE_P(All, SharedScanTest,
+                         ::testing::Combine(::testing::ValuesIn(ScansOrNone()),
+                                            ::testing::Values(12u, 16u),
+                                            ::testing::Values(kOneSubtree, 20000u)),
+                         [](const auto& given) {
+                           std::string file = std::get<0>(given.param);
+                           std::string name = file.empty()
+                                                  ? "NoData"
+                                                  : std::filesystem::path(file).stem().string();
+                           for (char& c : name)
+                             c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                           uint32_t vertices = std::get<2>(given.param);
+                           return name + "_" + std::to_string(std::get<1>(given.param)) + "Bits_" +
+                                  (vertices == kOneSubtree ? "OneSubtree" : "Subtrees");
+                         });
 
 }  // namespace
 }  // namespace folprom::support

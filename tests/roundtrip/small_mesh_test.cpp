@@ -79,12 +79,12 @@ std::vector<Case> EveryMeshInSubtrees() {
   return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    InSubtreesOf, SmallMeshTest, ::testing::ValuesIn(EveryMeshInSubtrees()), [](const auto& given) {
-      uint32_t vertices = given.param.subtree_vertices;
-      return given.param.small.name + "_" +
-             (vertices == kOneSubtree ? "All" : std::to_string(vertices));
-    });
+INSTANTIATE_TEST_SUITE_P(InSubtreesOf, SmallMeshTest, ::testing::ValuesIn(EveryMeshInSubtrees()),
+                         [](const auto& given) {
+                           uint32_t vertices = given.param.subtree_vertices;
+                           return given.param.small.name + "_" +
+                                  (vertices == kOneSubtree ? "All" : std::to_string(vertices));
+                         });
 
 /// Counts, positions and faces are compared above; that the comparison itself sees faults is proven
 /// here.
@@ -96,7 +96,8 @@ TEST(MeshComparisonTest, SeesAReversedFace) {
 }
 
 TEST(MeshComparisonTest, SeesFacesOfCoincidentVerticesExchanged) {
-  Mesh a{{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 3}, {0, 3, 4}, {1, 2, 4}}};
+  Mesh a{{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+         {{0, 2, 3}, {0, 3, 4}, {1, 2, 4}}};
   Mesh b = a, c = a;
   b.faces = {{1, 2, 3}, {1, 3, 4}, {0, 2, 4}};  // the two vertices renamed
   c.faces = {{0, 2, 3}, {1, 3, 4}, {1, 2, 4}};

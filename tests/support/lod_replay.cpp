@@ -86,8 +86,7 @@ struct Seam {
   Seam(const FolpFile& file, uint32_t number, const std::deque<Subtree>& subtrees)
       : owner(number),
         truth(Members(file, number, subtrees), subtrees[number].chunk.cross_faces),
-        coder(file.parameters(), Participants(file, number, subtrees, false),
-              file.table().faces),
+        coder(file.parameters(), Participants(file, number, subtrees, false), file.table().faces),
         reader(file.container(), file.parameters(), number,
                Participants(file, number, subtrees, true)) {}
 
@@ -110,8 +109,8 @@ struct Seam {
                                                           bool decoded) {
     std::vector<SeamCoder::Participant> participants;
     for (uint32_t s : Numbers(file, owner)) {
-      participants.push_back({s, decoded ? &subtrees[s].reader.state().border()
-                                         : &subtrees[s].whole.border});
+      participants.push_back(
+          {s, decoded ? &subtrees[s].reader.state().border() : &subtrees[s].whole.border});
     }
     return participants;
   }
@@ -217,7 +216,8 @@ void LodReplay::CollectDecoded() {
     impl_->base.push_back(base);
     impl_->border_vertices.push_back(state.BorderVertices());
     for (const Int3& p : state.positions()) {
-      positions_.push_back({lattice.ToModel(0, p.x), lattice.ToModel(1, p.y), lattice.ToModel(2, p.z)});
+      positions_.push_back(
+          {lattice.ToModel(0, p.x), lattice.ToModel(1, p.y), lattice.ToModel(2, p.z)});
     }
     std::vector<Face> faces;
     state.AppendFaces(&faces);

@@ -1,5 +1,5 @@
-// Every LOD of a file from two sides: which original vertices each LOD vertex stands for, known from
-// encoding the scan once more, and the LOD itself as the decoder rebuilds it.
+// Every LOD of a file from two sides: which original vertices each LOD vertex stands for, known
+// from encoding the scan once more, and the LOD itself as the decoder rebuilds it.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ class LodReplay {
   /// Does some face have its corners in three subtrees.
   bool ThreeSubtreesMeet() const;
 
-  /// Goes on by one layer. Throws std::runtime_error where the scan, encoded again, gives other bytes
-  /// than the file has.
+  /// Goes on by one layer. Throws std::runtime_error where the scan, encoded again, gives other
+  /// bytes than the file has.
   void NextLayer();
 
   /// Vertices of the LOD, as decoded, subtree after subtree.

@@ -12,8 +12,7 @@ Mesh RandomPoints(uint64_t count, uint64_t seed) {
   Random random(seed);
   Mesh mesh;
   for (uint64_t i = 0; i < count; ++i) {
-    mesh.positions.push_back(
-        {random.Between(-1, 1), random.Between(-1, 1), random.Between(-1, 1)});
+    mesh.positions.push_back({random.Between(-1, 1), random.Between(-1, 1), random.Between(-1, 1)});
   }
   return mesh;
 }
@@ -31,7 +30,8 @@ Mesh SingleTriangle() { return {{{0, 0, 0}, {1, 0, 0}, {0, 2, 1}}, {{2, 0, 1}}};
 Mesh TwoVerticesOneDegenerateFace() { return {{{0, 0, 0}, {1, 2, 3}}, {{1, 0, 1}}}; }
 Mesh VertexThreeTimesInItsFace() { return {{{1, 2, 3}}, {{0, 0, 0}, {0, 0, 0}}}; }
 Mesh Tetrahedron() {
-  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 Mesh PointsWithoutFaces() { return RandomPoints(150, 1); }
 
@@ -157,9 +157,7 @@ Mesh MoebiusStrip() {
       mesh.positions.push_back({reach * std::cos(u), reach * std::sin(u), v * std::sin(u / 2)});
     }
   }
-  auto at = [&](uint64_t c, uint64_t r) {
-    return c < kColumns ? c * kRows + r : kRows - 1 - r;
-  };
+  auto at = [&](uint64_t c, uint64_t r) { return c < kColumns ? c * kRows + r : kRows - 1 - r; };
   for (uint64_t c = 0; c < kColumns; ++c) {
     for (uint64_t r = 0; r + 1 < kRows; ++r) {
       mesh.faces.push_back({at(c, r), at(c + 1, r), at(c + 1, r + 1)});
@@ -197,7 +195,8 @@ Mesh StripAt(std::vector<Point> positions) {
 Mesh ExponentialDistances() {
   std::vector<Point> positions;
   double x = 1;
-  for (int i = 0; i < 30; ++i, x *= 1.7) positions.push_back({x, i % 2 == 0 ? x / 3 : 0, i % 3 * x / 5});
+  for (int i = 0; i < 30; ++i, x *= 1.7)
+    positions.push_back({x, i % 2 == 0 ? x / 3 : 0, i % 3 * x / 5});
   return StripAt(std::move(positions));
 }
 
@@ -245,12 +244,23 @@ Mesh NonManifoldSoup(uint64_t vertices, uint64_t faces, uint64_t seed) {
     Triple face = DistinctTriple(&random, used);
     mesh.faces.push_back(face);
     switch (random.Below(12)) {
-      case 0: mesh.faces.push_back({face[2], face[0], face[1]}); break;
-      case 1: mesh.faces.push_back({face[0], face[2], face[1]}); break;
-      case 2: mesh.faces.push_back({face[0], face[0], face[1]}); break;
-      case 3: mesh.faces.push_back({face[1], face[0], face[1]}); break;
-      case 4: mesh.faces.push_back({face[0], face[0], face[0]}); break;
-      default: break;
+      case 0:
+        mesh.faces.push_back({face[2], face[0], face[1]});
+        break;
+      case 1:
+        mesh.faces.push_back({face[0], face[2], face[1]});
+        break;
+      case 2:
+        mesh.faces.push_back({face[0], face[0], face[1]});
+        break;
+      case 3:
+        mesh.faces.push_back({face[1], face[0], face[1]});
+        break;
+      case 4:
+        mesh.faces.push_back({face[0], face[0], face[0]});
+        break;
+      default:
+        break;
     }
   }
   return mesh;

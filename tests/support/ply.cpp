@@ -108,10 +108,18 @@ void WritePly(const std::string& path, const Mesh& mesh, CoordinateType type) {
   for (const Point& point : mesh.positions) {
     for (double value : point) {
       switch (type) {
-        case CoordinateType::kShort: Append(&bytes, static_cast<int16_t>(value)); break;
-        case CoordinateType::kInt: Append(&bytes, static_cast<int32_t>(value)); break;
-        case CoordinateType::kFloat: Append(&bytes, static_cast<float>(value)); break;
-        case CoordinateType::kDouble: Append(&bytes, value); break;
+        case CoordinateType::kShort:
+          Append(&bytes, static_cast<int16_t>(value));
+          break;
+        case CoordinateType::kInt:
+          Append(&bytes, static_cast<int32_t>(value));
+          break;
+        case CoordinateType::kFloat:
+          Append(&bytes, static_cast<float>(value));
+          break;
+        case CoordinateType::kDouble:
+          Append(&bytes, value);
+          break;
       }
     }
   }
@@ -135,7 +143,10 @@ PlyContent ReadPly(const std::string& path) {
   for (Point& point : content.mesh.positions) {
     for (const Property& property : header.properties) {
       double value = body.Number(property.type);
-      size_t axis = property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : 3;
+      size_t axis = property.name == "x"   ? 0
+                    : property.name == "y" ? 1
+                    : property.name == "z" ? 2
+                                           : 3;
       if (axis == 3) continue;
       point[axis] = value;
       content.coordinate_type = property.type;

@@ -14,7 +14,8 @@ uint64_t Mixed(uint64_t z) {
 }
 
 std::string Text(const Point& p) {
-  return "(" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")";
+  return "(" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " + std::to_string(p[2]) +
+         ")";
 }
 
 std::string CountDifference(const Mesh& a, const Mesh& b) {
@@ -61,7 +62,8 @@ void Refine(const std::vector<Triple>& faces, std::vector<uint64_t>* colours) {
       sums[f[i]] += hash;
     }
   }
-  for (size_t v = 0; v < sums.size(); ++v) (*colours)[v] = Mixed((*colours)[v] + Mixed(sums[v] + 1));
+  for (size_t v = 0; v < sums.size(); ++v)
+    (*colours)[v] = Mixed((*colours)[v] + Mixed(sums[v] + 1));
 }
 
 /// Pairs (position number, colour), ascending.
@@ -111,8 +113,8 @@ std::string DifferenceInOrder(const Mesh& a, const Mesh& b) {
   if (!counts.empty()) return counts;
   auto [left, right] = std::mismatch(a.positions.begin(), a.positions.end(), b.positions.begin());
   if (left != a.positions.end()) {
-    return "vertex " + std::to_string(left - a.positions.begin()) + ": " + Text(*left) + " became " +
-           Text(*right);
+    return "vertex " + std::to_string(left - a.positions.begin()) + ": " + Text(*left) +
+           " became " + Text(*right);
   }
   std::vector<Triple> faces[2];
   for (const Triple& f : a.faces) faces[0].push_back(SmallestRotation(f));

@@ -26,8 +26,8 @@ void AddCells(uint64_t columns, uint64_t rows, bool columns_close, bool rows_clo
 double Relief(const Point& p) {
   double height = 0, size = 0.12;
   for (double waves = 3; waves < 50; waves *= 2.3, size /= 2.5) {
-    height += size * std::sin(waves * p[0] + 1) * std::sin(waves * p[1] + 2) *
-              std::cos(waves * p[2]);
+    height +=
+        size * std::sin(waves * p[0] + 1) * std::sin(waves * p[1] + 2) * std::cos(waves * p[2]);
   }
   return height;
 }
@@ -40,8 +40,8 @@ double Distance(const Point& a, const Point& b) {
 
 Mesh BumpySphere(uint64_t vertices, bool holes, uint64_t seed) {
   Random random(seed);
-  uint64_t columns = std::max<uint64_t>(
-      static_cast<uint64_t>(std::sqrt(2.0 * static_cast<double>(vertices))), 4);
+  uint64_t columns =
+      std::max<uint64_t>(static_cast<uint64_t>(std::sqrt(2.0 * static_cast<double>(vertices))), 4);
   uint64_t rows = std::max<uint64_t>(vertices / columns, 3);
   Mesh mesh;
   std::vector<Point> directions;

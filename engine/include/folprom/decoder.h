@@ -27,10 +27,10 @@ class MemoryDecoder {
   MemoryDecoder& operator=(MemoryDecoder&&) noexcept;
   ~MemoryDecoder();
 
-  size_t layer_count() const;       ///< as announced
-  size_t complete_layers() const;   ///< whole in the bytes given
+  size_t layer_count() const;      ///< as announced
+  size_t complete_layers() const;  ///< whole in the bytes given
   size_t decoded_layers() const;
-  double error_bound() const;       ///< of the last decoded layer, model units
+  double error_bound() const;  ///< of the last decoded layer, model units
   /// Decodes one more layer. kCorrupt when it is damaged or cut; the mesh then stays that of the
   /// layers before only if nothing of the layer was applied, so stop using the decoder.
   Result<void> DecodeNextLayer();

@@ -18,7 +18,7 @@ namespace folprom {
 
 /// What a file's bits were spent on, by what they tell. The kinds of FileInfo are sums of these.
 struct BitCounts {
-  double split = 0;  ///< how many children
+  double split = 0;                            ///< how many children
   double root = 0, theta = 0, rho = 0, z = 0;  ///< where they lie; Cartesian: theta is x, rho is y
   double refinement = 0;
   double connected = 0, pivots = 0, sides = 0;  ///< connectivity inside subtrees
@@ -47,11 +47,11 @@ Result<EncodeReport> EncodeFile(const std::string& input, const std::string& out
 struct DecodeReport {
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  uint64_t layers = 0;        ///< decoded
-  uint64_t layers_total = 0;  ///< in the file as announced
-  bool complete = false;      ///< the whole mesh came back
-  uint64_t bytes_read = 0;    ///< bytes of the file that the request needed
-  double error_bound = 0;     ///< of the last decoded layer, model units
+  uint64_t layers = 0;                ///< decoded
+  uint64_t layers_total = 0;          ///< in the file as announced
+  bool complete = false;              ///< the whole mesh came back
+  uint64_t bytes_read = 0;            ///< bytes of the file that the request needed
+  double error_bound = 0;             ///< of the last decoded layer, model units
   std::vector<std::string> warnings;  ///< for instance "file is cut after layer 12 of 30"
 };
 
@@ -61,20 +61,20 @@ Result<DecodeReport> DecodeFile(const std::string& input, const std::string& out
                                 parallel::Progress& progress);
 
 struct LayerInfo {
-  uint64_t bytes = 0;         ///< of this layer alone
-  uint64_t end_byte = 0;      ///< of the file up to and with this layer
-  uint64_t vertices = 0;      ///< of the LOD
-  uint64_t faces = 0;         ///< of the LOD
-  double error_bound = 0;     ///< model units
-  double bits_per_vertex = 0; ///< rate up to and with this layer, whole file prefix
+  uint64_t bytes = 0;          ///< of this layer alone
+  uint64_t end_byte = 0;       ///< of the file up to and with this layer
+  uint64_t vertices = 0;       ///< of the LOD
+  uint64_t faces = 0;          ///< of the LOD
+  double error_bound = 0;      ///< model units
+  double bits_per_vertex = 0;  ///< rate up to and with this layer, whole file prefix
 };
 
 struct FileInfo {
   uint32_t format_version = 0;
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  uint64_t bytes = 0;            ///< as announced by the table
-  uint64_t bytes_present = 0;    ///< fewer when the file is cut
+  uint64_t bytes = 0;          ///< as announced by the table
+  uint64_t bytes_present = 0;  ///< fewer when the file is cut
   uint64_t layers_present = 0;
   uint64_t subtrees = 0;
   double tolerance = 0;
@@ -91,8 +91,8 @@ Result<FileInfo> ReadInfo(const std::string& input);
 
 struct VerifyReport {
   bool lossless = false;
-  bool against = false;            ///< an original was compared
-  double max_position_error = 0;   ///< largest |difference| on one axis, model units (against only)
+  bool against = false;           ///< an original was compared
+  double max_position_error = 0;  ///< largest |difference| on one axis, model units (against only)
   double tolerance = 0;
   uint64_t vertices = 0;
   uint64_t faces = 0;

@@ -25,8 +25,8 @@ enum class Representative : uint8_t {
   kQuadric = 2     ///< the point nearest to the tangent planes of the set's vertices
 };
 
-/// Settings of the coder. The same values and the same scan give the same bytes. Each field is a key
-/// of the [codec] table of a config file, by the same name.
+/// Settings of the coder. The same values and the same scan give the same bytes. Each field is a
+/// key of the [codec] table of a config file, by the same name.
 struct CodecSettings {
   Hierarchy hierarchy = Hierarchy::kLloyd;
   Offsets offsets = Offsets::kCylindrical;
@@ -40,12 +40,12 @@ struct CodecSettings {
   double length_weight = 0.03;  ///< of area x length^2 beside the quadric error; 0 .. 10
 
   // Hierarchy (section 2.1)
-  uint32_t children = 4;             ///< K, children of a split; 2 .. 8
-  bool normal_metric = true;         ///< w_n as in the paper; false: Euclidean distance
-  double metric_a = 1;               ///< a; 0 .. 1
-  double metric_b = 4;               ///< b; 1 .. 64
-  uint32_t lloyd_iterations = 12;    ///< at most this many; 1 .. 100
-  double lloyd_threshold = 0.01;     ///< stop when distortion falls by less than this part; 0 .. 1
+  uint32_t children = 4;           ///< K, children of a split; 2 .. 8
+  bool normal_metric = true;       ///< w_n as in the paper; false: Euclidean distance
+  double metric_a = 1;             ///< a; 0 .. 1
+  double metric_b = 4;             ///< b; 1 .. 64
+  uint32_t lloyd_iterations = 12;  ///< at most this many; 1 .. 100
+  double lloyd_threshold = 0.01;   ///< stop when distortion falls by less than this part; 0 .. 1
   Representative representative = Representative::kQuadric;
   double curvature_threshold = 0.1;  ///< T_c; 0 .. 1
   double gaussian_ratio = 3;         ///< r_g; 0.01 .. 100
@@ -56,7 +56,8 @@ struct CodecSettings {
   bool predict_theta = true;          ///< section 2.3
   bool predict_height = true;         ///< section 2.3
   bool split_first = true;            ///< sets of more than one vertex first; then refinement
-  /// Up to this part of a subtree's vertices sets are split by distortion, flagged; then by spacing.
+  /// Up to this part of a subtree's vertices sets are split by distortion, flagged; then by
+  /// spacing.
   double distortion_first = 0.05;
 
   // Connectivity (section 3)
@@ -74,7 +75,8 @@ Result<void> CheckSettings(const CodecSettings& settings);
 /// What `encode` is asked for.
 struct EncodeOptions {
   CodecSettings codec;
-  /// Lattice bits N: tolerance = longest box side / (2^N - 1) / 2. 1 .. 24. Used when tolerance == 0.
+  /// Lattice bits N: tolerance = longest box side / (2^N - 1) / 2. 1 .. 24. Used when tolerance ==
+  /// 0.
   uint32_t bits = 12;
   /// Largest error per axis in model units; 0: from `bits`.
   double tolerance = 0;
@@ -85,11 +87,11 @@ struct EncodeOptions {
 
 /// What `decode` is asked for. At most one of the bounds is set; none: everything.
 struct DecodeOptions {
-  double bits_per_vertex = 0;   ///< > 0: as many whole layers as fit into this rate (at least one)
-  double max_error = 0;         ///< > 0: first layer whose error bound is at most this; else all
-  uint64_t max_vertices = 0;    ///< > 0: last layer with at most this many vertices (at least one)
-  uint32_t layers = 0;          ///< > 0: this many layers
-  bool use_region = false;      ///< only the vertices inside the box, and faces with all three inside
+  double bits_per_vertex = 0;  ///< > 0: as many whole layers as fit into this rate (at least one)
+  double max_error = 0;        ///< > 0: first layer whose error bound is at most this; else all
+  uint64_t max_vertices = 0;   ///< > 0: last layer with at most this many vertices (at least one)
+  uint32_t layers = 0;         ///< > 0: this many layers
+  bool use_region = false;  ///< only the vertices inside the box, and faces with all three inside
   double region_lo[3] = {0, 0, 0};
   double region_hi[3] = {0, 0, 0};
   uint64_t memory_bytes = uint64_t{2} << 30;

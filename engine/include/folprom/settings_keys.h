@@ -14,7 +14,7 @@ struct SettingKey {
   using Member = std::variant<uint32_t CodecSettings::*, double CodecSettings::*,
                               bool CodecSettings::*, Hierarchy CodecSettings::*,
                               Offsets CodecSettings::*, Representative CodecSettings::*>;
-  std::string_view name;     ///< also the name of the field
+  std::string_view name;  ///< also the name of the field
   Member member;
   std::string_view meaning;  ///< one line
   std::string_view unit;     ///< "" for a pure number

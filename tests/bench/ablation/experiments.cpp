@@ -44,8 +44,7 @@ const std::vector<RateExperiment>& RateExperiments() {
          s.quantisation_levels = 64;
        },
        &Curve::Point::rms},
-      {"cylindrical, not Cartesian offsets", "lower", "mean", Cartesian,
-       &Curve::Point::mean},
+      {"cylindrical, not Cartesian offsets", "lower", "mean", Cartesian, &Curve::Point::mean},
   };
   return experiments;
 }

@@ -86,10 +86,10 @@ std::string BitRow(const BitExperiment& experiment, const Scan& scan, const Cost
                    const Costs& off) {
   const auto with = experiment.bits(on), without = experiment.bits(off);
   const double own = with.own / without.own, plain = with.plain / without.plain;
-  return fmt::format("| {} | {} | {} | {} | {:.3f} | {:.3f} | {} | {} | {:.3f} | {:.3f} | {} | {} |\n",
-                     experiment.technique, scan.name, experiment.claim, experiment.unit,
-                     without.own, with.own, Percent(own), Verdict(own), without.plain,
-                     with.plain, Percent(plain), Verdict(plain));
+  return fmt::format(
+      "| {} | {} | {} | {} | {:.3f} | {:.3f} | {} | {} | {:.3f} | {:.3f} | {} | {} |\n",
+      experiment.technique, scan.name, experiment.claim, experiment.unit, without.own, with.own,
+      Percent(own), Verdict(own), without.plain, with.plain, Percent(plain), Verdict(plain));
 }
 
 std::string RateTable(const std::vector<Scan>& scans, const EncodeOptions& base, Steps& steps,
@@ -125,7 +125,8 @@ std::string BitTable(const std::vector<Scan>& scans, const EncodeOptions& base, 
   }
   std::string table =
       "| technique | mesh | claimed | measured | off | on | change | moves as claimed | plain off "
-      "| plain on | change | moves as claimed |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "| plain on | change | moves as claimed "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const BitExperiment& experiment : BitExperiments()) {
     const EncodeOptions without = With(base, experiment.turn_off);
     for (size_t i = 0; i < scans.size(); ++i) {
@@ -167,7 +168,8 @@ void Run(const std::string& config_path, const std::string& output,
   const std::string bits = BitTable(scans, config.options, steps, *runner);
   const std::string rates = RateTable(scans, config.options, steps, *runner);
   const std::string text = "Error at equal rates, 1e-4 of the diagonal:\n\n" + rates +
-                           "\nBits, under the coder's own contexts and for a plain coder:\n\n" + bits;
+                           "\nBits, under the coder's own contexts and for a plain coder:\n\n" +
+                           bits;
   fmt::print("{}", text);
   if (output.empty()) return;
   auto file = std::move(io::AtomicFile::Create(output, true).value());

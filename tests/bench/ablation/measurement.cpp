@@ -64,8 +64,7 @@ Curve CurveOf(const std::string& scan, const EncodeOptions& options, double lowe
   // An octave more on both sides, for the layers next to the ends.
   for (double rate = lowest / 2; rate <= highest * 2; rate *= step) rates.push_back(rate);
   parallel::Progress progress;
-  const RateCurve measured =
-      MeasureRates(scan, options, rates, kSamples, runner, progress).value();
+  const RateCurve measured = MeasureRates(scan, options, rates, kSamples, runner, progress).value();
   Curve curve;
   for (const RatePoint& point : measured.points) {
     const Curve::Point next = PointOf(point);

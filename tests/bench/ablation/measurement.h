@@ -31,7 +31,8 @@ struct Curve {
   std::vector<Point> points;  ///< rates ascend
 
   /// Between two layers log(error) is linear in log(rate), unless they are more than an octave
-  /// apart: then, and behind the last one, it is that of the layer before. Nothing before the first.
+  /// apart: then, and behind the last one, it is that of the layer before. Nothing before the
+  /// first.
   std::optional<double> At(double bits_per_vertex, double Point::*error) const;
 };
 

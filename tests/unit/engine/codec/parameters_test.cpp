@@ -75,9 +75,9 @@ TEST(LayerSchedule, FallsFromLayerToLayerToTheLeafBound) {
   for (const Int3& extent : {Int3{1, 0, 0}, kExtent, Int3{kWidest, kWidest, kWidest}}) {
     for (double edge : {0.0, 50.0, 1e4}) {
       for (uint32_t per_octave = 1; per_octave <= 8; ++per_octave) {
-        const LayerSchedule schedule(extent, per_octave, 2,
-                                     SplitLayersFor(extent, edge, per_octave, Offsets::kCylindrical),
-                                     RefineLayersFor(extent, edge, per_octave, Offsets::kCylindrical));
+        const LayerSchedule schedule(
+            extent, per_octave, 2, SplitLayersFor(extent, edge, per_octave, Offsets::kCylindrical),
+            RefineLayersFor(extent, edge, per_octave, Offsets::kCylindrical));
         double spacing = 2e9, bound = 2e9;
         for (uint32_t layer = 0; layer < schedule.layers(); ++layer) {
           if (layer < schedule.split_layers()) {
@@ -100,11 +100,15 @@ TEST(LayerSchedule, FallsFromLayerToLayerToTheLeafBound) {
 TEST(LayerSchedule, IsNeverLongerThanWhatAFileMayAnnounce) {
   // The table of a file holds at most 4096 layers.
   const Int3 widest{kWidest, kWidest, kWidest};
-  EXPECT_LE(SplitLayersFor(widest, 0, 8, Offsets::kCylindrical) + RefineLayersFor(widest, 0, 8, Offsets::kCylindrical), 4096u);
+  EXPECT_LE(SplitLayersFor(widest, 0, 8, Offsets::kCylindrical) +
+                RefineLayersFor(widest, 0, 8, Offsets::kCylindrical),
+            4096u);
   for (double edge : {1.0, 64.0, 1e5, 1e9}) {
     for (uint32_t per_octave : {1u, 2u, 8u}) {
-      EXPECT_LE(SplitLayersFor(widest, edge, per_octave, Offsets::kCylindrical), SplitLayersFor(widest, 0, per_octave, Offsets::kCylindrical));
-      EXPECT_LE(RefineLayersFor(widest, edge, per_octave, Offsets::kCylindrical), RefineLayersFor(widest, 0, per_octave, Offsets::kCylindrical));
+      EXPECT_LE(SplitLayersFor(widest, edge, per_octave, Offsets::kCylindrical),
+                SplitLayersFor(widest, 0, per_octave, Offsets::kCylindrical));
+      EXPECT_LE(RefineLayersFor(widest, edge, per_octave, Offsets::kCylindrical),
+                RefineLayersFor(widest, 0, per_octave, Offsets::kCylindrical));
     }
   }
 }

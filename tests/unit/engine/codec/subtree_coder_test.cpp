@@ -79,10 +79,10 @@ CodecParameters ParametersFor(uint32_t children, bool split_first) {
   parameters.settings.children = children;
   parameters.settings.split_first = split_first;
   const uint32_t per_octave = parameters.settings.layers_per_octave;
-  parameters.schedule =
-      LayerSchedule(parameters.extent, per_octave, parameters.settings.rounds_per_layer,
-                    SplitLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets),
-                    RefineLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets));
+  parameters.schedule = LayerSchedule(
+      parameters.extent, per_octave, parameters.settings.rounds_per_layer,
+      SplitLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets),
+      RefineLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets));
   return parameters;
 }
 

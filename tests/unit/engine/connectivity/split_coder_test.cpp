@@ -171,8 +171,7 @@ Complex Replay(const Recording& r, const ConnectivitySettings& settings) {
   SplitMeters meters;
   uint64_t exceptions = 0;
   for (const auto& split : r.splits) {
-    coder.Code(bits, complex, positions, split.vertex, split.known, nullptr, &meters,
-               &exceptions);
+    coder.Code(bits, complex, positions, split.vertex, split.known, nullptr, &meters, &exceptions);
     positions[split.vertex] = split.known.first;
     positions.push_back(split.known.second);
   }

@@ -59,8 +59,11 @@ TEST(CellModel, ExtremeRangesAndPredictionsComeBack) {
   constexpr int32_t kMost = std::numeric_limits<int32_t>::max();
   std::mt19937_64 random(1);
   std::vector<Sample> samples;
-  for (auto [lo, hi] : {std::pair{kLeast, kMost}, {0, (1 << 30) - 1}, {kLeast, kLeast + 1},
-                        {kMost - 1, kMost}, {kMost, kMost}}) {
+  for (auto [lo, hi] : {std::pair{kLeast, kMost},
+                        {0, (1 << 30) - 1},
+                        {kLeast, kLeast + 1},
+                        {kMost - 1, kMost},
+                        {kMost, kMost}}) {
     for (double mean : {-1e300, -4e9, -0.5, 0.0, 1e6, 2147483647.0, 1e300}) {
       for (double scale : {1e-9, 0.05, 1.0, 1e9, 1e300}) {
         const int64_t width = int64_t{hi} - lo + 1;

@@ -118,8 +118,7 @@ std::vector<Split> RandomSplits(const OffsetSettings& settings, uint64_t seed) {
         continue;
       }
       split.offsets.push_back(
-          {theta,
-           static_cast<uint32_t>(random() & ((1u << size) - 1)),
+          {theta, static_cast<uint32_t>(random() & ((1u << size) - 1)),
            static_cast<int32_t>(random() & ((1u << size) - 1)) * (random() % 2 == 0 ? 1 : -1)});
     }
     std::sort(split.offsets.begin(), split.offsets.end(), [](const auto& a, const auto& b) {

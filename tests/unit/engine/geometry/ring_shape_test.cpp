@@ -58,8 +58,8 @@ TEST(RingShape, FlatRingHasItsSpacingAndNoBend) {
   EXPECT_EQ(shape.fit_error, 0);
   EXPECT_EQ(shape.height_range, 0);
   for (size_t i = 0; i < 3; ++i) {
-    for (const Vector3* centre : {&shape.mean, &shape.direction, &shape.area_centre,
-                                  &shape.rim_centre, &shape.reach}) {
+    for (const Vector3* centre :
+         {&shape.mean, &shape.direction, &shape.area_centre, &shape.rim_centre, &shape.reach}) {
       EXPECT_NEAR((*centre)[i], 0, 1e-9);
     }
   }
@@ -108,16 +108,16 @@ TEST(RingShape, WithoutNeighboursTheScaleStands) {
 }
 
 TEST(RingShape, CoincidentAndCollinearNeighboursStayFinite) {
-  for (const std::vector<Int3>& offsets : std::vector<std::vector<Int3>>{
-           {{0, 0, 0}},
-           {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
-           {{5, 0, 0}},
-           {{0, 0, 5}},
-           {{0, 0, 5}, {0, 0, -5}},
-           {{5, 0, 0}, {-5, 0, 0}},
-           {{1, 2, 3}, {2, 4, 6}, {0, 0, 0}},
-           {{0, 0, 0}, {1 << 29, 0, 1}, {1, 0, 0}},
-           {{7, 7, 7}, {7, 7, 7}, {7, 7, 7}}}) {
+  for (const std::vector<Int3>& offsets :
+       std::vector<std::vector<Int3>>{{{0, 0, 0}},
+                                      {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+                                      {{5, 0, 0}},
+                                      {{0, 0, 5}},
+                                      {{0, 0, 5}, {0, 0, -5}},
+                                      {{5, 0, 0}, {-5, 0, 0}},
+                                      {{1, 2, 3}, {2, 4, 6}, {0, 0, 0}},
+                                      {{0, 0, 0}, {1 << 29, 0, 1}, {1, 0, 0}},
+                                      {{7, 7, 7}, {7, 7, 7}, {7, 7, 7}}}) {
     const Ring ring = RingOf(offsets);
     ExpectFinite(MeasureRing(kVertex, ring.around, ring.fan, 10));
     ExpectFinite(MeasureRing(kVertex, ring.around, {}, 10));

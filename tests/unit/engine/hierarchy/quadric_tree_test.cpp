@@ -144,8 +144,8 @@ TEST(QuadricTree, KeepsAPeakLongerThanThePlaneAroundIt) {
     const Int3 added = tree.node(node.first_child + 1).representative;
     if (added == sheet.positions[peak]) at_peak = node.distortion;
   }
-  const auto before = std::count_if(distortions.begin(), distortions.end(),
-                                    [&](double d) { return d > at_peak; });
+  const auto before =
+      std::count_if(distortions.begin(), distortions.end(), [&](double d) { return d > at_peak; });
   EXPECT_LT(before, 20);
 }
 

@@ -19,7 +19,7 @@ class Rates : public testing::Test {
     return MeasureRates(scan_, options, rates, 20'000, *runner_, progress_).value();
   }
   void SetUp() override {
-    support::WritePly(scan_, support::BumpySphere(4000, false, 1), support::CoordinateType::kFloat);
+    support::WritePly(scan_, support::BumpySphere(6000, false, 1), support::CoordinateType::kFloat);
   }
 
   support::TemporaryFolder folder_;
@@ -29,7 +29,7 @@ class Rates : public testing::Test {
 };
 
 TEST_F(Rates, ErrorFallsAsTheRateRises) {
-  const RateCurve curve = Run({3, 8, 1000});
+  const RateCurve curve = Run({2, 8, 1000});
   ASSERT_EQ(curve.points.size(), 3u);
   for (size_t i = 0; i < 3; ++i) {
     const RatePoint& point = curve.points[i];

@@ -81,8 +81,7 @@ TEST(MeasureBounds, StopsWhenCancelled) {
   const auto runner = parallel::MakeSerialRunner();
   parallel::Progress progress;
   progress.Cancel();
-  EXPECT_THROW(MeasureBounds(TestSource(WavySheet(9, 9)), *runner, progress),
-               parallel::Cancelled);
+  EXPECT_THROW(MeasureBounds(TestSource(WavySheet(9, 9)), *runner, progress), parallel::Cancelled);
 }
 
 }  // namespace

@@ -11,8 +11,7 @@ namespace {
 // Subtrees beyond the fewest that could hold all vertices.
 double Surplus(const TestScan& result, uint32_t subtree_vertices) {
   const auto vertices = static_cast<double>(result.scan->vertex_map().size());
-  return static_cast<double>(result.scan->subtree_count()) /
-         std::ceil(vertices / subtree_vertices);
+  return static_cast<double>(result.scan->subtree_count()) / std::ceil(vertices / subtree_vertices);
 }
 
 TEST(PartitionCoverage, ASmallScanIsOneSubtree) {

@@ -37,9 +37,9 @@ TEST(Lattice, GivesItsOwnPointsBack) {
   lattice.unit = 1.0 / 3;
   lattice.extent = {1 << 29, 1 << 29, 1 << 29};
   for (int32_t k = 0; k < 1 << 29; k = 3 * k + 1) {
-    EXPECT_EQ(FromModel(lattice, lattice.ToModel(0, k), lattice.ToModel(1, k),
-                        lattice.ToModel(2, k)),
-              (Int3{k, k, k}));
+    EXPECT_EQ(
+        FromModel(lattice, lattice.ToModel(0, k), lattice.ToModel(1, k), lattice.ToModel(2, k)),
+        (Int3{k, k, k}));
   }
 }
 

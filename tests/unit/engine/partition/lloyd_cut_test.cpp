@@ -53,8 +53,8 @@ bool IsCutAtTheCrease(const PartitionSettings& settings) {
   std::vector<Site> sites = Crease();
   const size_t first = LloydCut(settings).Halve(sites, 2).first_sites;
   const auto alike = [](const Site& a, const Site& b) { return a.normal == b.normal; };
-  return std::equal(sites.begin() + 1, sites.begin() + static_cast<ptrdiff_t>(first),
-                    sites.begin(), alike) &&
+  return std::equal(sites.begin() + 1, sites.begin() + static_cast<ptrdiff_t>(first), sites.begin(),
+                    alike) &&
          std::equal(sites.begin() + static_cast<ptrdiff_t>(first) + 1, sites.end(),
                     sites.begin() + static_cast<ptrdiff_t>(first), alike);
 }
@@ -84,8 +84,7 @@ TEST(LloydCut, NeverLeavesAPartEmpty) {
     }
     PartitionSettings settings = Settings(static_cast<uint32_t>(WeightOf(sites) - 1));
     settings.metric_a = 0.25 * static_cast<double>(random.Below(5));
-    const auto halves =
-        LloydCut(settings).Halve(sites, static_cast<uint32_t>(1 + random.Below(4)));
+    const auto halves = LloydCut(settings).Halve(sites, static_cast<uint32_t>(1 + random.Below(4)));
     EXPECT_GE(halves.first_sites, 1u);
     EXPECT_LT(halves.first_sites, count);
     EXPECT_GE(halves.first_subtrees, 1u);

@@ -106,8 +106,7 @@ void ExpectComplete(const TestSource& source, const Lattice& lattice,
                     const PartitionSettings& settings, const PartitionedScan& scan) {
   ASSERT_EQ(scan.vertex_map().size(), source.vertex_count());
   for (const VertexRef& ref : scan.vertex_map()) ASSERT_LT(ref.subtree, scan.subtree_count());
-  const auto expected =
-      Expected(source.mesh(), lattice, scan.vertex_map(), scan.subtree_count());
+  const auto expected = Expected(source.mesh(), lattice, scan.vertex_map(), scan.subtree_count());
   for (size_t i = 0; i < expected.size(); ++i) {
     SCOPED_TRACE("subtree " + std::to_string(i));
     EXPECT_LE(scan.summary(i).vertices, settings.subtree_vertices);

@@ -164,8 +164,7 @@ Lattice LatticeOf(const TestMesh& mesh, int bits) {
   lattice.origin = box.lo;
   if (box.longest() > 0) lattice.unit = box.longest() / ((1 << bits) - 1);
   for (size_t axis = 0; axis < 3; ++axis) {
-    lattice.extent[axis] =
-        static_cast<int32_t>((box.hi[axis] - box.lo[axis]) / lattice.unit + 0.5);
+    lattice.extent[axis] = static_cast<int32_t>((box.hi[axis] - box.lo[axis]) / lattice.unit + 0.5);
   }
   return lattice;
 }

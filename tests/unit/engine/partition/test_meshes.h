@@ -60,8 +60,7 @@ class TestSource final : public io::MeshSource {
   uint64_t vertex_block_begin(size_t block) const override;
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override;
   size_t triangle_block_count() const override;
-  Result<void> ReadTriangleBlock(size_t block,
-                                 std::vector<io::Triangle>* triangles) const override;
+  Result<void> ReadTriangleBlock(size_t block, std::vector<io::Triangle>* triangles) const override;
   const io::SourceNotes& notes() const override { return notes_; }
   void DropResident() const override {}
 

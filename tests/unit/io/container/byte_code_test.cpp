@@ -19,8 +19,8 @@ uint64_t VarintOf(const std::vector<uint8_t>& bytes) {
 
 TEST(ByteCode, BringsBackVarintsOfEveryWidth) {
   for (int shift = 0; shift < 64; ++shift) {
-    for (const uint64_t value : {uint64_t{1} << shift, (uint64_t{1} << shift) - 1,
-                                 UINT64_MAX >> shift}) {
+    for (const uint64_t value :
+         {uint64_t{1} << shift, (uint64_t{1} << shift) - 1, UINT64_MAX >> shift}) {
       ByteWriter out;
       out.Varint(value);
       EXPECT_EQ(VarintOf(std::move(out).Take()), value);
@@ -59,8 +59,8 @@ TEST(ByteCode, ZigZagTurnsBackForAllDifferences) {
   EXPECT_EQ(ZigZag(0), 0u);
   EXPECT_EQ(ZigZag(UINT64_MAX), 1u);
   EXPECT_EQ(ZigZag(1), 2u);
-  for (const uint64_t value : {uint64_t{0}, uint64_t{5}, UINT64_MAX, UINT64_MAX >> 1,
-                               (UINT64_MAX >> 1) + 1}) {
+  for (const uint64_t value :
+       {uint64_t{0}, uint64_t{5}, UINT64_MAX, UINT64_MAX >> 1, (UINT64_MAX >> 1) + 1}) {
     EXPECT_EQ(UnZigZag(ZigZag(value)), value);
   }
 }

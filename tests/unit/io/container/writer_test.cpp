@@ -122,9 +122,7 @@ TEST(ContainerWriter, PassesOnThatTheDiskIsFull) {
   }
 }
 
-TEST(Checksum, IsXxh3WithoutSeed) {
-  EXPECT_EQ(XxHash64({}), 0x2d06800538d394c2u);
-}
+TEST(Checksum, IsXxh3WithoutSeed) { EXPECT_EQ(XxHash64({}), 0x2d06800538d394c2u); }
 
 }  // namespace
 }  // namespace folprom::io

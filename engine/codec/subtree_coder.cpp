@@ -65,6 +65,7 @@ SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape
       lattice_coder_(shape.box_lo, shape.box_hi),
       split_coder_(parameters.connectivity()),
       offset_coder_(parameters.offsets()),
+      finer_same_({2}),
       due_({kDueBuckets * kDueBuckets, kDueBuckets}),
       border_both_({16}),
       border_side_({1}),
@@ -144,14 +145,28 @@ double SubtreeCoder::Spacing(uint32_t set) const {
   return count == 0 ? static_cast<double>(sets_[set].scale) : sum / count;
 }
 
-OffsetCoder::SetContext SubtreeCoder::ContextOf(uint32_t set, double spacing) const {
-  OffsetCoder::SetContext context;
-  context.spacing = spacing;
+LeafSigns SubtreeCoder::SignsOf(uint32_t set, double spacing) {
+  LeafSigns signs;
+  signs.spacing = spacing;
+  signs.scale = static_cast<double>(sets_[set].scale);
   for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
-    bool leaf = sets_[complex_.half_edge(h).target].state == kLeaf;
-    ++(leaf ? context.leaf_neighbours : context.other_neighbours);
+    const uint32_t other = complex_.half_edge(h).target;
+    if (sets_[other].state != kLeaf) {
+      ++signs.others;
+      continue;
+    }
+    ++signs.leaves;
+    const Vector3 d = Difference(positions_[other], positions_[set]);
+    signs.leaf_distance = signs.leaf_distance + std::sqrt(Dot(d, d));
+    signs.leaf_spacing = signs.leaf_spacing + static_cast<double>(sets_[other].spacing);
   }
-  return context;
+  if (signs.leaves > 0) {
+    signs.leaf_distance = signs.leaf_distance / signs.leaves;
+    signs.leaf_spacing = signs.leaf_spacing / signs.leaves;
+  }
+  const RingShape ring = ShapeAround(set);
+  signs.bend = ring.height_range / ring.spacing;
+  return signs;
 }
 
 template <class Coder>
@@ -218,10 +233,14 @@ bool SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTr
     // The only set: the table says how many vertices it holds.
     count = std::min(shape_.vertices, parameters_.children());
   } else {
-    count = offset_coder_.CodeChildCount(coder, ContextOf(set, spacing), count);
+    const LeafSigns signs = SignsOf(set, spacing);
+    const bool leaf = leaf_model_.Code(coder, signs, count == 1);
+    const OffsetCoder::SetContext context{spacing, signs.leaves, signs.others};
+    count = leaf ? 1 : offset_coder_.CodeChildCount(coder, context, count);
   }
   if (count == 1) {
     sets_[set].state = kLeaf;
+    sets_[set].spacing = static_cast<float>(spacing);
     return false;
   }
   if (positions_.size() + count - 1 > shape_.vertices) {
@@ -318,25 +337,28 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, SubtreeTruth* truth
 
 template <class Coder>
 void SubtreeCoder::CodePrecision(Coder& coder, SubtreeTruth* truth) {
-  uint32_t shift = parameters_.schedule.LatticeShift(layer_);
-  precision_.tangential = shift;
-  if (layer_ >= parameters_.schedule.split_layers()) {
-    precision_.normal = std::min(precision_.normal, shift);
-    return;
+  const uint32_t shift = parameters_.schedule.LatticeShift(layer_);
+  const bool growing = layer_ < parameters_.schedule.split_layers() && !open_.empty();
+  if (growing) {
+    LatticePrecision chosen;
+    if constexpr (Coder::kEncoding) chosen = truth->Precision(complex_, open_, shift);
+    finer_[0] = CodeFiner(coder, 0, shift - chosen.tangential);
+    const uint32_t left = shift - std::min(finer_[0], shift);
+    finer_[1] = CodeFiner(coder, 1, left - chosen.normal);
   }
-  uint32_t finer = 0;
-  if constexpr (Coder::kEncoding) {
-    double sum = 0;
-    for (uint32_t set : open_) sum = sum + truth->SplitError(set);
-    double error = sum / static_cast<double>(positions_.size());
-    while (finer<shift&& static_cast<double>(uint64_t{1} << (shift - finer))> error) ++finer;
-  }
-  // Once a layer: not worth a model.
+  precision_.tangential = shift - std::min(finer_[0], shift);
+  precision_.normal = precision_.tangential - std::min(finer_[1], precision_.tangential);
+}
+
+template <class Coder>
+uint32_t SubtreeCoder::CodeFiner(Coder& coder, uint32_t which, uint32_t finer) {
+  const uint32_t before = finer_[which];
+  if (finer_same_.Code(coder, {which}, 0, finer == before)) return before;
   uint32_t coded = 0;
   for (uint32_t bit = 0; bit < 5; ++bit) {
     coded |= static_cast<uint32_t>(coder.Code(32768, (finer >> bit & 1) != 0)) << bit;
   }
-  precision_.normal = shift - std::min(coded, shift);
+  return coded;
 }
 
 template <class Coder>
@@ -471,7 +493,7 @@ uint32_t SubtreeCoder::CodeBinarySplit(Coder& coder, uint32_t set, const Int3& f
 void SubtreeCoder::FinishChild(uint32_t place, uint32_t set) {
   SetRecord& record = sets_[set];
   record.scale = child_scale_;
-  record.spacing = kUnmeasured;
+  record.spacing = children_are_leaves_ ? child_scale_ : kUnmeasured;
   record.state = children_are_leaves_ ? kLeaf : kUnknown;
   if (record.cell == kNone) {
     record.cell = static_cast<uint32_t>(cells_.size());

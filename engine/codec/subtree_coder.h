@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/codec/border_record.h"
+#include "engine/codec/leaf_model.h"
 #include "engine/codec/parameters.h"
 #include "engine/connectivity/complex.h"
 #include "engine/connectivity/face_exceptions.h"
@@ -41,8 +42,9 @@ class SubtreeTruth {
   virtual void EndBinarySplit(uint32_t second_set) = 0;
   /// Position of the only vertex of a set.
   virtual Int3 VertexPosition(uint32_t set) const = 0;
-  /// Distance, lattice units, that the split of a set takes away.
-  virtual double SplitError(uint32_t set) const = 0;
+  /// How coarse positions may be, at most `coarsest` bits, while the `open` sets are not split.
+  virtual LatticePrecision Precision(const Complex& complex, std::span<const uint32_t> open,
+                                     uint32_t coarsest) const = 0;
   virtual SplitOracle* oracle() = 0;
   /// Final faces, in terms of `complex`, for the exceptions.
   virtual FaceCensus CountFaces(const Complex& complex) const = 0;
@@ -92,10 +94,11 @@ class SubtreeCoder {
   enum SetState : uint8_t { kUnknown = 0, kLeaf = 1 };
   static constexpr float kUnmeasured = 3e38f;
   struct SetRecord {
-    float scale = 0;              ///< spacing to assume without neighbours, lattice units
-    float spacing = kUnmeasured;  ///< when last measured; never far below the present one
-    uint32_t cell = kNone;        ///< index into cells_; kNone: the position is exact
-    uint32_t border = kNone;      ///< number of the border set
+    float scale = 0;  ///< spacing to assume without neighbours, lattice units
+    /// When last measured, never far below the present one; of a leaf, when it was found to be one.
+    float spacing = kUnmeasured;
+    uint32_t cell = kNone;    ///< index into cells_; kNone: the position is exact
+    uint32_t border = kNone;  ///< number of the border set
     SetState state = kUnknown;
   };
 
@@ -118,6 +121,8 @@ class SubtreeCoder {
   void CodeNewVertex(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters);
   template <class Coder>
   void CodePrecision(Coder& coder, SubtreeTruth* truth);
+  template <class Coder>
+  uint32_t CodeFiner(Coder& coder, uint32_t which, uint32_t finer);
   /// Brings every vertex to the precision of the layer.
   template <class Coder>
   void CodeLatticeRefinement(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
@@ -130,7 +135,7 @@ class SubtreeCoder {
   template <class Coder>
   void CodeRefinement(Coder& coder, double bound, SubtreeTruth* truth, CostMeters* meters);
   double Spacing(uint32_t set) const;
-  OffsetCoder::SetContext ContextOf(uint32_t set, double spacing) const;
+  LeafSigns SignsOf(uint32_t set, double spacing);
   void FinishChild(uint32_t place, uint32_t set);
 
   /// The binary splits by which K children come about (section 3.2 repeats the binary split): the
@@ -159,7 +164,12 @@ class SubtreeCoder {
 
   SplitCoder split_coder_;
   OffsetCoder offset_coder_;
+  /// Bits by which positions are finer than the schedule says: along the surface, and across it
+  /// once more.
+  std::array<uint32_t, 2> finer_{0, 0};
+  MixedModel<1> finer_same_;
   MixedModel<2> due_;
+  LeafModel leaf_model_;
   MixedModel<1> border_both_;
   MixedModel<1> border_side_;
   FaceExceptions exceptions_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/codec/lattice_precision.h"
 #include "engine/codec/subtree_coder.h"
 #include "engine/connectivity/split_oracle.h"
 #include "engine/hierarchy/lloyd_tree.h"
@@ -30,7 +31,10 @@ class TreeTruth final : public SubtreeTruth {
   bool SecondTouchesBorder() const override { return second_border_; }
   void EndBinarySplit(uint32_t second_set) override;
   Int3 VertexPosition(uint32_t set) const override;
-  double SplitError(uint32_t set) const override { return tree_.node(node_of_set_[set]).error; }
+  LatticePrecision Precision(const Complex& complex, std::span<const uint32_t> open,
+                             uint32_t coarsest) const override {
+    return ChoosePrecision(complex, *this, open, coarsest);
+  }
   SplitOracle* oracle() override { return &oracle_; }
   FaceCensus CountFaces(const Complex& complex) const override;
 

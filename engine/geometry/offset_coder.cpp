@@ -77,7 +77,6 @@ std::array<uint32_t, 2> Where(bool used, std::array<uint32_t, 2> contexts) {
 
 OffsetCoder::OffsetCoder(const OffsetSettings& settings)
     : settings_(settings),
-      is_leaf_({kSpacingBuckets, 4 * 4 * 16}),
       is_full_({kSpacingBuckets, 4 * 4}),
       fewer_({kMostChildren}),
       first_theta_(Where(!settings.cartesian, {settings.children + 1, settings.children})),
@@ -148,9 +147,6 @@ uint32_t OffsetCoder::CodeChildCount(Coder& coder, const SetContext& context, ui
       static_cast<uint32_t>(std::clamp(bucket, 0, static_cast<int>(kSpacingBuckets) - 1));
   uint32_t around =
       std::min(context.leaf_neighbours, 3u) * 4 + std::min(context.other_neighbours, 3u);
-  if (is_leaf_.Code(coder, {spacing, around * 16 + std::min(spacing / 8, 15u)}, 0, count == 1)) {
-    return 1;
-  }
   uint32_t most = settings_.children;
   if (most == 2 || is_full_.Code(coder, {spacing, around}, 0, count == most)) return most;
   // m < K: the set holds m vertices; the larger the rarer.

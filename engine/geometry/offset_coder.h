@@ -67,7 +67,7 @@ class OffsetCoder {
     uint32_t leaf_neighbours = 0;
     uint32_t other_neighbours = 0;
   };
-  /// Number of children, 1 .. K (1: the set is a single vertex).
+  /// Number of children of a set that is no single vertex, 2 .. K.
   template <class Coder>
   uint32_t CodeChildCount(Coder& coder, const SetContext& context, uint32_t count);
 
@@ -107,7 +107,6 @@ class OffsetCoder {
                      int32_t index, OffsetMeters* meters);
 
   OffsetSettings settings_;
-  MixedModel<2> is_leaf_;
   MixedModel<2> is_full_;
   MixedModel<1> fewer_;
   IntegerModel<2> first_theta_;

@@ -48,7 +48,7 @@ class LloydBuilder {
 
   SetTree Build() {
     nodes_.reserve(points_.size() + points_.size() / 2);
-    nodes_.push_back({0, static_cast<uint32_t>(points_.size()), 0, 0, {}, 0, 0});
+    nodes_.push_back({0, static_cast<uint32_t>(points_.size()), 0, 0, {}, 0});
     std::vector<std::pair<uint32_t, uint32_t>> pending{{0, 0}};  // node, depth
     while (!pending.empty()) {
       auto [index, depth] = pending.back();
@@ -219,7 +219,7 @@ class LloydBuilder {
     nodes_[index].first_child = first;
     nodes_[index].child_count = children;
     for (uint32_t i = 0; i < children; ++i)
-      nodes_.push_back({bounds[i], bounds[i + 1], 0, 0, {}, 0, 0});
+      nodes_.push_back({bounds[i], bounds[i + 1], 0, 0, {}, 0});
     return first;
   }
 

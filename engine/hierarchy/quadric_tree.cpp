@@ -82,7 +82,6 @@ class Contractor {
   /// A merge of two nodes of the tree under construction; leaves are the vertices.
   struct Merge {
     uint32_t kept, removed;  ///< nodes
-    double error;
     double distortion;
   };
   struct Entry {
@@ -342,7 +341,7 @@ class Contractor {
     // A set is due no later than the sets inside it.
     double distortion =
         std::max({area * error, DistortionOf(top_node_[kept]), DistortionOf(top_node_[removed])});
-    merges_.push_back({top_node_[kept], top_node_[removed], error, distortion});
+    merges_.push_back({top_node_[kept], top_node_[removed], distortion});
     top_node_[kept] = own_ + static_cast<uint32_t>(merges_.size()) - 1;
   }
 
@@ -398,7 +397,7 @@ class Contractor {
     }
     nodes.reserve(own_ + merges_.size());
     std::vector<uint32_t> source{root_};  // node of the merges, per node of the tree
-    nodes.push_back({0, own_, 0, 0, positions[kept_vertex[root_]], 0, 0});
+    nodes.push_back({0, own_, 0, 0, positions[kept_vertex[root_]], 0});
     for (uint32_t i = 0; i < nodes.size(); ++i) {
       if (source[i] < own_) {
         order[nodes[i].begin] = source[i];
@@ -408,10 +407,9 @@ class Contractor {
       uint32_t middle = nodes[i].begin + size[merge.kept], end = nodes[i].end;
       nodes[i].first_child = static_cast<uint32_t>(nodes.size());
       nodes[i].child_count = 2;
-      nodes[i].error = merge.error;
       nodes[i].distortion = merge.distortion;
-      nodes.push_back({nodes[i].begin, middle, 0, 0, positions[kept_vertex[merge.kept]], 0, 0});
-      nodes.push_back({middle, end, 0, 0, positions[kept_vertex[merge.removed]], 0, 0});
+      nodes.push_back({nodes[i].begin, middle, 0, 0, positions[kept_vertex[merge.kept]], 0});
+      nodes.push_back({middle, end, 0, 0, positions[kept_vertex[merge.removed]], 0});
       source.push_back(merge.kept);
       source.push_back(merge.removed);
     }

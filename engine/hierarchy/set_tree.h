@@ -19,7 +19,6 @@ class SetTree {
     uint32_t child_count = 0;  ///< 0 or 2 .. K, consecutive nodes
     Int3 representative;
     double distortion = 0;  ///< SubtreeTruth::Distortion
-    double error = 0;       ///< SubtreeTruth::SplitError
   };
   SetTree(std::vector<Node> nodes, std::vector<uint32_t> order)
       : nodes_(std::move(nodes)), order_(std::move(order)) {}

@@ -21,7 +21,10 @@ class CopyingTruth final : public SubtreeTruth {
   Int3 RootRepresentative() const override { return honest_.RootRepresentative(); }
   uint32_t ChildCount(uint32_t set) const override { return honest_.ChildCount(set); }
   double Distortion(uint32_t set) const override { return honest_.Distortion(set); }
-  double SplitError(uint32_t) const override { return 0; }
+  LatticePrecision Precision(const Complex& complex, std::span<const uint32_t> open,
+                             uint32_t coarsest) const override {
+    return honest_.Precision(complex, open, coarsest);
+  }
   Int3 ChildRepresentative(uint32_t set, uint32_t child) const override {
     return honest_.ChildRepresentative(set, child);
   }

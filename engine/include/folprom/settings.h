@@ -37,7 +37,7 @@ struct CodecSettings {
   bool subtree_normals = false;
 
   // Hierarchy (quadric)
-  double length_weight = 0.03;  ///< of area x length^2 beside the quadric error; 0 .. 10
+  double length_weight = 0.01;  ///< of area x length^2 beside the quadric error; 0 .. 10
 
   // Hierarchy (section 2.1)
   uint32_t children = 4;           ///< K, children of a split; 2 .. 8

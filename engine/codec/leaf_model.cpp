@@ -1,0 +1,65 @@
+#include "engine/codec/leaf_model.h"
+
+#include <algorithm>
+
+#include "engine/entropy/bit_coder.h"
+#include "engine/entropy/cell_model.h"
+
+namespace folprom {
+namespace {
+
+constexpr double kPerLog2 = 1.44269504;
+constexpr uint32_t kFine = 128, kCoarse = 40;  ///< eighths of octaves of the spacing, and halves
+constexpr uint32_t kRatios = 64;
+constexpr uint32_t kShares = 6, kBends = 6, kCounts = 5;
+
+uint32_t Octaves(double length, double per_octave, uint32_t count) {
+  if (!(length > 1)) return 0;
+  const double value = per_octave * kPerLog2 * detail::FastLog(length);
+  return static_cast<uint32_t>(std::min(value, static_cast<double>(count - 1)));
+}
+
+/// Twelfths of octaves around 32; 1: a length is missing.
+uint32_t Ratio(double a, double b) {
+  if (!(a > 0) || !(b > 0)) return 1;
+  const double value = 32 + 12 * kPerLog2 * detail::FastLog(a / b);
+  return static_cast<uint32_t>(std::clamp(value, 2.0, kRatios - 1.0));
+}
+
+/// 0: no neighbours, 1: none is a leaf, 2 .. 5: about so many fourths are.
+uint32_t ShareOfLeaves(const LeafSigns& signs) {
+  const uint32_t count = signs.leaves + signs.others;
+  if (count == 0) return 0;
+  if (signs.leaves == 0) return 1;
+  return static_cast<uint32_t>(std::min(uint64_t{5} * signs.leaves / (count + 1) + 1, uint64_t{5}));
+}
+
+}  // namespace
+
+LeafModel::LeafModel()
+    : model_({kFine, kCounts * kCounts * kCoarse, kRatios * kShares, kRatios * kShares, kRatios * 4,
+              kRatios / 4 * 16 * kBends},
+             kShares) {}
+
+template <class Coder>
+bool LeafModel::Code(Coder& coder, const LeafSigns& signs, bool leaf) {
+  const uint32_t fine = Octaves(signs.spacing, 8, kFine);
+  const uint32_t coarse = Octaves(signs.spacing, 2, kCoarse);
+  const uint32_t leaves = std::min(signs.leaves, kCounts - 1);
+  const uint32_t others = std::min(signs.others, kCounts - 1);
+  const uint32_t share = ShareOfLeaves(signs);
+  const uint32_t ratio = signs.leaves == 0 ? 0 : Ratio(signs.spacing, signs.leaf_spacing);
+  const uint32_t reach = signs.leaves == 0 ? 0 : Ratio(signs.leaf_distance, signs.leaf_spacing);
+  const uint32_t made = Ratio(signs.spacing, signs.scale);
+  const auto bend = static_cast<uint32_t>(std::min(signs.bend * 8, kBends - 1.0));
+  return model_.Code(coder,
+                     {fine, (leaves * kCounts + others) * kCoarse + coarse, ratio * kShares + share,
+                      reach * kShares + share, made * 4 + std::min(share, 3u),
+                      (ratio / 4 * 16 + fine / 8) * kBends + bend},
+                     share, leaf);
+}
+
+template bool LeafModel::Code<BitEncoder>(BitEncoder&, const LeafSigns&, bool);
+template bool LeafModel::Code<BitDecoder>(BitDecoder&, const LeafSigns&, bool);
+
+}  // namespace folprom

@@ -1,0 +1,32 @@
+// Is a vertex set that is due to be split a single vertex?
+#pragma once
+
+#include <cstdint>
+
+#include "engine/entropy/mixed_model.h"
+
+namespace folprom {
+
+/// What both sides know of the set. Lengths in lattice units.
+struct LeafSigns {
+  double spacing = 0;        ///< mean distance to the neighbours
+  double scale = 0;          ///< how far from its sibling it was made
+  double bend = 0;           ///< height of the ring over its spacing
+  double leaf_spacing = 0;   ///< mean over leaf neighbours of their spacing when they were asked
+  double leaf_distance = 0;  ///< mean distance to leaf neighbours
+  uint32_t leaves = 0;       ///< neighbours that are leaves
+  uint32_t others = 0;
+};
+
+/// Learns from each answer.
+class LeafModel {
+ public:
+  LeafModel();
+  template <class Coder>
+  bool Code(Coder& coder, const LeafSigns& signs, bool leaf);
+
+ private:
+  MixedModel<6> model_;
+};
+
+}  // namespace folprom

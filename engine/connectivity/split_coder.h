@@ -7,9 +7,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "engine/connectivity/complex.h"
+#include "engine/connectivity/fan.h"
+#include "engine/connectivity/fan_model.h"
 #include "engine/connectivity/split_oracle.h"
 #include "engine/connectivity/split_star.h"
 #include "engine/entropy/mixed_model.h"
@@ -22,6 +25,8 @@ namespace folprom {
 struct ConnectivitySettings {
   bool pivot_order = true;
   bool nearer_child = true;
+  /// Fans that stay fans are parted at once, by FanModel.
+  bool fans = false;
 };
 
 /// Pivot flags (context: number of neighbours and place in the order, both at most 15) and side
@@ -67,6 +72,14 @@ class SplitCoder {
  private:
   void Gather(const Complex& complex, uint32_t vertex);
   void Measure(const std::vector<Int3>& positions, const Known& known);
+  /// Returns whether the star is a fan that stays one; it is parted then, but for the new faces.
+  template <class Coder>
+  bool CodeFan(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
+               const Known& known, SplitOracle* oracle, SplitMeters* meters);
+  /// The cut of the fan; places 0 and 0 when the split does anything else to it.
+  FanCut TrueCut(const Fan& fan, const SplitOracle& oracle) const;
+  void PartFan(const Fan& fan, FanCut cut);
+  void AddFanFaces(Complex& complex);
   void SortPivotCandidates();
   template <class Coder>
   void CodePivots(Coder& coder, SplitOracle* oracle, SplitMeters* meters);
@@ -92,6 +105,10 @@ class SplitCoder {
 
   ConnectivitySettings settings_;
   SplitStar star_;
+  Fan fan_ring_;
+  FanCut cut_;
+  std::array<FanModel::Spoke, Fan::kMostPlaces> spokes_;
+  std::vector<uint32_t> last_split_;  ///< per vertex: number of vertices when it was split or made
   std::vector<uint32_t> slot_of_vertex_;  ///< index into star_.neighbours, valid where stamped
   std::vector<uint32_t> order_;
   std::vector<uint32_t> stack_;
@@ -100,6 +117,8 @@ class SplitCoder {
   double children_distance_ = 0;
   double mean_distance_ = 0;
 
+  MixedModel<1> fan_;
+  std::unique_ptr<FanModel> fan_model_;
   MixedModel<2> connected_;
   MixedModel<3> pivot_;
   MixedModel<3> side_;

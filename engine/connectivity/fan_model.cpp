@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/connectivity/fan_model_weights.h"
 #include "engine/entropy/bit_coder.h"
 #include "engine/entropy/cell_model.h"
 
@@ -27,11 +26,11 @@ constexpr uint32_t kShapeFirst = 0, kShapeSecond = kShapeFirst + kKnots + 1,
                    kAge = kDegree + kMostDegree + 1, kRest = kAge + 2 * kAgeKnots,
                    kArcFirst = kRest + kAgeKnots, kArcSecond = kArcFirst + kMostArc + 1,
                    kOutside = kArcSecond + kMostArc + 1, kWeights = kOutside + 3;
-static_assert(kFanWeights.size() == kWeights);
 /// One more so that every term has a weight after its own; a multiple of a vector's width.
 constexpr size_t kStored = (kWeights + 1 + 7) / 8 * 8;
 
-constexpr float kStep = 0.17F;
+/// Weights move by kStep * slope / sqrt(kSquares + recent squared slopes).
+constexpr float kStep = 0.22F, kSquares = 0.3F, kFade = 0.9998F;
 constexpr uint32_t kMostRanks = 8, kPlaceBuckets = 8, kOddsBuckets = 16;
 
 Vector3 Minus(const Vector3& a, const Vector3& b) {
@@ -46,10 +45,10 @@ double Cotangent(double dot, double cross) { return dot / std::max(cross, 1e-9);
 }  // namespace
 
 FanModel::FanModel()
-    : weights_(kStored), gradient_(kStored), squares_(kStored, kFanSquares),
-      hit_({kMostRanks * kPlaceBuckets, kOddsBuckets * 3}, 3) {
-  std::copy(kFanWeights.begin(), kFanWeights.end(), weights_.begin());
-}
+    : weights_(kStored),
+      gradient_(kStored),
+      squares_(kStored),
+      hit_({kMostRanks * kPlaceBuckets, kOddsBuckets * 3}, 3) {}
 
 FanModel::Triangle FanModel::TriangleOf(const Vector3& a, const Vector3& b) {
   Triangle triangle;
@@ -272,8 +271,8 @@ void FanModel::Learn(const Fan& fan, FanCut truth) {
   for (size_t w = 0; w < kStored; ++w) {
     const float slope = gradient_[w];
     gradient_[w] = 0;
-    squares_[w] += slope * slope;
-    weights_[w] += kStep * slope / std::sqrt(squares_[w]);
+    squares_[w] = kFade * squares_[w] + slope * slope;
+    weights_[w] += kStep * slope / std::sqrt(kSquares + squares_[w]);
   }
 }
 

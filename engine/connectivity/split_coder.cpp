@@ -56,7 +56,7 @@ uint32_t AtMost(uint32_t value, uint32_t most) { return value < most ? value : m
 SplitCoder::SplitCoder(ConnectivitySettings settings)
     : settings_(settings),
       fan_({2 * kDegreeBuckets}),
-      fan_model_(settings.fans ? std::make_unique<FanModel>() : nullptr),
+      fan_model_(settings.fan_cuts ? std::make_unique<FanModel>() : nullptr),
       connected_({kDegreeBuckets * 4, 16 * 4}, 1),
       pivot_({8 * 4 * 2 * kDegreeBuckets, kRegularityBuckets * 4 * 9, 4 * kLeanBuckets * 8 * 4}, 8),
       side_({kLeanBuckets * 4 * 2, 3 * 3 * kLeanBuckets * 2, kDegreeBuckets * kLeanBuckets}, 4),
@@ -417,7 +417,7 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
   while (last_split_.size() < complex.vertex_count()) {
     last_split_.push_back(static_cast<uint32_t>(last_split_.size()));
   }
-  if (settings_.fans && known.all == kUndecided && (known.code_connected || known.connected) &&
+  if (settings_.fan_cuts && known.all == kUndecided && (known.code_connected || known.connected) &&
       CodeFan(coder, complex, positions, known, oracle, meters)) {
     last_split_[vertex] = complex.vertex_count();
     star_.second = complex.AddVertex();

@@ -21,12 +21,11 @@
 
 namespace folprom {
 
-/// Which of the paper's techniques are on.
+/// Which techniques are on: fans parted at once, and two of the paper's.
 struct ConnectivitySettings {
+  bool fan_cuts = true;
   bool pivot_order = true;
   bool nearer_child = true;
-  /// Fans that stay fans are parted at once, by FanModel.
-  bool fans = false;
 };
 
 /// Pivot flags (context: number of neighbours and place in the order, both at most 15) and side

@@ -51,6 +51,7 @@ TEST(GoldenTest, SettingsOfThePaperInSubtreesGiveTheKnownBytes) {
   codec.quantisation_levels = 32;
   codec.distortion_first = 0.1;
   codec.adaptive_quantisation = codec.predict_theta = codec.predict_height = true;
+  codec.fan_cuts = false;
   codec.split_first = codec.pivot_order = codec.nearer_child = true;
   codec.layers_per_octave = codec.rounds_per_layer = 2;
   ExpectHash("kPaperHash", kPaperHash, options);
@@ -73,7 +74,7 @@ TEST(GoldenTest, EverythingOffInSubtreesGivesTheKnownBytes) {
   codec.children = 7;
   codec.normal_metric = codec.adaptive_quantisation = false;
   codec.predict_theta = codec.predict_height = codec.split_first = false;
-  codec.pivot_order = codec.nearer_child = false;
+  codec.fan_cuts = codec.pivot_order = codec.nearer_child = false;
   codec.representative = Representative::kCentre;
   codec.distortion_first = 0;
   codec.layers_per_octave = 3;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/connectivity/split_oracle.h"
 #include "engine/connectivity/split_star.h"
 
 namespace folprom {
@@ -30,5 +31,11 @@ struct FanCut {
 /// A fan of places 3 .. kMostPlaces, or one of none when the star is anything else: its faces are
 /// not all oriented alike, hang together otherwise, or have corners that are no neighbours.
 Fan FindFan(const SplitStar& star);
+
+/// The cut that the split is, places 0 and 0 when the split does anything else to the fan.
+FanCut TrueCut(const Fan& fan, const SplitStar& star, const SplitOracle& oracle);
+
+/// Tells the neighbours and faces of the star where they go.
+void PartFan(const Fan& fan, FanCut cut, SplitStar* star);
 
 }  // namespace folprom

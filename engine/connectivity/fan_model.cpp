@@ -31,7 +31,9 @@ constexpr size_t kStored = (kWeights + 1 + 7) / 8 * 8;
 
 /// Weights move by kStep * slope / sqrt(kSquares + recent squared slopes).
 constexpr float kStep = 0.22F, kSquares = 0.3F, kFade = 0.9998F;
-constexpr uint32_t kMostRanks = 8, kPlaceBuckets = 8, kOddsBuckets = 16;
+/// Of the decision whether a cut is the one: contexts, and sets of mixing weights.
+constexpr uint32_t kMostRanks = 8, kPlaceBuckets = 8, kOddsBuckets = 16, kSets = 3;
+constexpr double kLeastMass = 1e-9;
 
 Vector3 Minus(const Vector3& a, const Vector3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -48,7 +50,7 @@ FanModel::FanModel()
     : weights_(kStored),
       gradient_(kStored),
       squares_(kStored),
-      hit_({kMostRanks * kPlaceBuckets, kOddsBuckets * 3}, 3) {}
+      hit_({kMostRanks * kPlaceBuckets, kOddsBuckets * kSets}, kSets) {}
 
 FanModel::Triangle FanModel::TriangleOf(const Vector3& a, const Vector3& b) {
   Triangle triangle;
@@ -164,8 +166,7 @@ void FanModel::CollectPivots(const Fan& fan, std::span<const Spoke> spokes) {
     const Spoke& spoke = spokes[k];
     Add(&pivot, kDegree, static_cast<double>(spoke.degree), kMostDegree + 1);
     Add(&pivot, kAge + (spoke.younger ? kAgeKnots : 0), spoke.age * (kAgeKnots - 1), kAgeKnots);
-    const double octaves =
-        1.44269504 * detail::FastLog(1 + static_cast<double>(spoke.splits_past));
+    const double octaves = 1.44269504 * detail::FastLog(1 + static_cast<double>(spoke.splits_past));
     Add(&pivot, kRest, octaves * (kAgeKnots - 1) / 19, kAgeKnots);
     AddAngles(&pivot, kAnglePivot, at_pivot_[k]);
     // The new triangle (first, second, neighbour) has the orientation of the fan at the end of the
@@ -186,43 +187,55 @@ void FanModel::CollectPivots(const Fan& fan, std::span<const Spoke> spokes) {
   }
 }
 
+void FanModel::WeighPairs(const Fan& fan) {
+  const uint32_t n = fan.places, real = n - (fan.open ? 1 : 0);
+  for (uint32_t i = 0; i < real; ++i) {
+    for (uint32_t j = i + 1; j < real; ++j) {
+      Terms bend;
+      AddBend(&bend, kBendNew, of_both_[i], of_both_[j], -1);
+      bend_[i][j] = bend_[j][i] = bend.term[0];
+      left_[i][j] = left_[j][i] = bend.sum;
+    }
+    if (fan.open) left_[i][real] = left_[real][i] = 0;
+  }
+  for (uint32_t m = 0; m + 1 < n; ++m) {
+    arc_[m] = static_cast<double>(weights_[kArcSecond + std::min(m, kMostArc)]) +
+              static_cast<double>(weights_[kArcFirst + std::min(n - 2 - m, kMostArc)]);
+  }
+}
+
 void FanModel::Weigh(const Fan& fan) {
   const uint32_t n = fan.places;
   double most = -1e300;
   for (uint32_t i = 0; i < n; ++i) {
-    double between = 0;
+    // Neighbours that are pivots are no spokes of the first child, and those in between neither.
+    double between = begin_[i].sum + pivot_[i].sum - spoke_first_[i].sum;
+    uint32_t last = i;
     for (uint32_t m = 0; m + 1 < n; ++m) {
-      // j is m neighbours behind i, face `last` the one before j.
-      const uint32_t j = i + m + 1 < n ? i + m + 1 : i + m + 1 - n, last = fan.Previous(j);
+      const uint32_t j = fan.Next(last);
       between += face_second_[last].sum - face_first_[last].sum;
-      if (m > 0) between += spoke_second_[last].sum - spoke_first_[last].sum;
-      Terms pair;
-      Add(&pair, kArcSecond, m, kMostArc + 1);
-      Add(&pair, kArcFirst, n - 2 - m, kMostArc + 1);
-      if (!fan.IsOutside(i) && !fan.IsOutside(j)) {
-        Terms bend;
-        AddBend(&bend, kBendNew, of_both_[i], of_both_[j], -1);
-        bend_[i][j] = bend.term[0];
-        pair.sum += bend.sum;
-      }
-      double score = between + pair.sum + begin_[i].sum + end_[j].sum;
-      score += pivot_[i].sum - spoke_first_[i].sum + pivot_[j].sum - spoke_first_[j].sum;
-      probability_[i][j] = score;
+      double& score = left_[i][j];
+      score += between + arc_[m] + end_[j].sum + pivot_[j].sum - spoke_first_[j].sum;
       most = std::max(most, score);
+      between += spoke_second_[j].sum - spoke_first_[j].sum;
+      last = j;
     }
-    probability_[i][i] = 0;
   }
   double sum = 0;
   for (uint32_t i = 0; i < n; ++i) {
     for (uint32_t j = 0; j < n; ++j) {
       if (i == j) continue;
-      double& value = probability_[i][j];
+      double& value = left_[i][j];
       value = detail::FastExp2(std::max(value - most, -40.0));
       sum += value;
     }
   }
+  const double inverse = 1 / sum;
   for (uint32_t i = 0; i < n; ++i) {
-    for (uint32_t j = 0; j < n; ++j) probability_[i][j] = probability_[i][j] / sum;
+    for (uint32_t j = 0; j < n; ++j) {
+      probability_[i][j] = i == j ? 0 : left_[i][j] * inverse;
+      left_[i][j] = probability_[i][j];
+    }
   }
 }
 
@@ -237,7 +250,7 @@ void FanModel::Spread(const Terms& terms, double error) {
 
 void FanModel::Learn(const Fan& fan, FanCut truth) {
   const uint32_t n = fan.places;
-  std::array<double, kMost> begins{}, ends{}, arc{};
+  std::array<double, kMost> begins{}, ends{}, arcs{};
   double first_face = 0;  // by how much the face at place 0 belongs to the second child too rarely
   for (uint32_t i = 0; i < n; ++i) {
     for (uint32_t j = 0; j < n; ++j) {
@@ -245,7 +258,7 @@ void FanModel::Learn(const Fan& fan, FanCut truth) {
       const double error = (i == truth.begin && j == truth.end ? 1 : 0) - probability_[i][j];
       begins[i] += error;
       ends[j] += error;
-      arc[j > i ? j - i - 1 : j + n - i - 1] += error;
+      arcs[j > i ? j - i - 1 : j + n - i - 1] += error;
       if (i == 0 || (i > j && j > 0)) first_face += error;
       if (fan.IsOutside(i) || fan.IsOutside(j)) continue;
       const float after = static_cast<float>(error) * bend_[i][j].share;
@@ -265,15 +278,31 @@ void FanModel::Learn(const Fan& fan, FanCut truth) {
     Spread(pivot_[k], begins[k] + ends[k]);
   }
   for (uint32_t m = 0; m + 1 < n; ++m) {
-    gradient_[kArcSecond + std::min(m, kMostArc)] += static_cast<float>(arc[m]);
-    gradient_[kArcFirst + std::min(n - 2 - m, kMostArc)] += static_cast<float>(arc[m]);
+    gradient_[kArcSecond + std::min(m, kMostArc)] += static_cast<float>(arcs[m]);
+    gradient_[kArcFirst + std::min(n - 2 - m, kMostArc)] += static_cast<float>(arcs[m]);
   }
   for (size_t w = 0; w < kStored; ++w) {
     const float slope = gradient_[w];
+    if (slope == 0) continue;
     gradient_[w] = 0;
     squares_[w] = kFade * squares_[w] + slope * slope;
     weights_[w] += kStep * slope / std::sqrt(kSquares + squares_[w]);
   }
+}
+
+FanCut FanModel::TakeLikeliest(uint32_t places, double* probability) {
+  double best = -1;
+  FanCut cut;
+  for (uint32_t i = 0; i < places; ++i) {
+    for (uint32_t j = 0; j < places; ++j) {
+      if (i == j || !(left_[i][j] > best)) continue;
+      best = left_[i][j];
+      cut = {i, j};
+    }
+  }
+  left_[cut.begin][cut.end] = -1;
+  *probability = best;
+  return cut;
 }
 
 template <class Coder>
@@ -283,33 +312,24 @@ FanCut FanModel::Code(Coder& coder, const Fan& fan, std::span<const Spoke> spoke
   CollectFaces(fan);
   CollectSpokes(fan);
   CollectPivots(fan, spokes);
+  WeighPairs(fan);
   Weigh(fan);
-  // From the likeliest cut on: is it this one.
   const uint32_t n = fan.places, cuts = n * (n - 1);
-  auto left = probability_;
-  double mass = 1;
-  FanCut cut;
-  for (uint32_t rank = 0; rank < cuts; ++rank) {
-    double best = -1;
-    for (uint32_t i = 0; i < n; ++i) {
-      for (uint32_t j = 0; j < n; ++j) {
-        if (i == j || !(left[i][j] > best)) continue;
-        best = left[i][j];
-        cut = {i, j};
-      }
-    }
-    left[cut.begin][cut.end] = -1;
-    if (rank + 1 == cuts) break;
-    const double other = std::max(mass - best, 1e-9);
-    mass = other;
-    const double odds = std::clamp(256 * detail::FastLog(std::max(best, 1e-9) / other), -2047.0, 2047.0);
-    const int32_t prediction = static_cast<int32_t>(odds);
+  const uint32_t place_bucket = std::min(n - 3, kPlaceBuckets - 1);
+  double mass = 1, probability = 0;
+  FanCut cut = TakeLikeliest(n, &probability);
+  for (uint32_t rank = 0; rank + 1 < cuts; ++rank) {
+    mass = std::max(mass - probability, kLeastMass);
+    const double odds = 256 * detail::FastLog(std::max(probability, kLeastMass) / mass);
+    const int32_t prediction = static_cast<int32_t>(std::clamp(odds, -2047.0, 2047.0));
     const uint32_t bucket = static_cast<uint32_t>((prediction + 2047) / 256);
-    const uint32_t context0 =
-        std::min(rank, kMostRanks - 1) * kPlaceBuckets + std::min(n - 3, kPlaceBuckets - 1);
-    const uint32_t context1 = std::min(rank, 2u) * kOddsBuckets + bucket;
+    const uint32_t early = std::min(rank, kSets - 1);
+    const std::array<uint32_t, 2> contexts{
+        std::min(rank, kMostRanks - 1) * kPlaceBuckets + place_bucket,
+        early * kOddsBuckets + bucket};
     const bool hit = truth.begin == cut.begin && truth.end == cut.end;
-    if (hit_.Code(coder, {context0, context1}, std::min(rank, 2u), hit, {prediction})) break;
+    if (hit_.Code(coder, contexts, early, hit, {prediction})) break;
+    cut = TakeLikeliest(n, &probability);
   }
   Learn(fan, cut);
   return cut;

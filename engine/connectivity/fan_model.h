@@ -1,8 +1,8 @@
 // How likely each way is in which a split can part a fan.
 //
-// A log-linear model over all cuts: what the triangles and edges of the mesh after the split look
-// like (shape, bend, lengths), how many edges meet at its vertices and how old these are adds up.
-// The weights learn from each cut.
+// A log-linear model over all cuts: what the triangles and edges after the split look like (shape,
+// angles, bends), how many edges meet at its vertices and how old these are adds up, each by a
+// piecewise linear function. The weights at its knots learn from each cut.
 #pragma once
 
 #include <array>
@@ -64,7 +64,9 @@ class FanModel {
   void AddShape(Terms* terms, uint32_t table, const Triangle& triangle, double sign);
   void AddBend(Terms* terms, uint32_t table, const Triangle& a, const Triangle& b, double sign);
   void AddAngles(Terms* terms, uint32_t table, double cotangents);
+  void WeighPairs(const Fan& fan);
   void Weigh(const Fan& fan);
+  FanCut TakeLikeliest(uint32_t places, double* probability);
   void Learn(const Fan& fan, FanCut truth);
   void Spread(const Terms& terms, double error);
 
@@ -82,7 +84,9 @@ class FanModel {
   std::array<Terms, kMost> face_first_, face_second_, spoke_first_, spoke_second_;
   std::array<Terms, kMost> begin_, end_, pivot_;
   std::array<std::array<Term, kMost>, kMost> bend_;  ///< between the two new triangles
-  std::array<std::array<double, kMost>, kMost> probability_;
+  std::array<double, kMost> arc_;  ///< by the number of neighbours between the pivots
+  /// Per cut; of those not asked for yet, while they are coded.
+  std::array<std::array<double, kMost>, kMost> probability_, left_;
 };
 
 }  // namespace folprom

@@ -55,7 +55,7 @@ uint32_t AtMost(uint32_t value, uint32_t most) { return value < most ? value : m
 
 SplitCoder::SplitCoder(ConnectivitySettings settings)
     : settings_(settings),
-      fan_({2 * kDegreeBuckets}),
+      stays_fan_({2 * kDegreeBuckets}),
       fan_model_(settings.fan_cuts ? std::make_unique<FanModel>() : nullptr),
       connected_({kDegreeBuckets * 4, 16 * 4}, 1),
       pivot_({8 * 4 * 2 * kDegreeBuckets, kRegularityBuckets * 4 * 9, 4 * kLeanBuckets * 8 * 4}, 8),
@@ -119,83 +119,29 @@ void SplitCoder::Measure(const std::vector<Int3>& positions, const Known& known)
   if (!star_.neighbours.empty()) mean_distance_ /= static_cast<double>(star_.neighbours.size());
 }
 
-FanCut SplitCoder::TrueCut(const Fan& fan, const SplitOracle& oracle) const {
-  constexpr FanCut kNoCut{0, 0};
-  if (!oracle.connected()) return kNoCut;
-  std::array<Side, Fan::kMostPlaces> side;
-  FanCut cut = kNoCut;
-  uint32_t pivots = 0;
-  for (uint32_t k = 0; k < fan.places; ++k) {
-    side[k] = kUndecided;
-    if (fan.IsOutside(k)) continue;
-    const auto& neighbour = star_.neighbours[fan.neighbour[k]];
-    side[k] = oracle.NeighbourSide(neighbour.half_edge, neighbour.vertex);
-    if (side[k] != kBoth) continue;
-    (pivots++ == 0 ? cut.begin : cut.end) = k;
-    if (!oracle.HasNewFace(neighbour.vertex)) return kNoCut;
-  }
-  if (fan.open && pivots == 1) cut.end = fan.places - 1, ++pivots;
-  if (pivots != 2) return kNoCut;
-  for (int turn = 0; turn < 2; ++turn, std::swap(cut.begin, cut.end)) {
-    bool holds = true;
-    Side now = kSecond;
-    for (uint32_t k = cut.begin, steps = 0; steps < fan.places; ++steps, k = fan.Next(k)) {
-      if (k == cut.end) now = kFirst;
-      const bool pivot = k == cut.begin || k == cut.end;
-      if (!pivot && !fan.IsOutside(k)) holds = holds && side[k] == now;
-      if (fan.face[k] != kNone) {
-        holds = holds && oracle.FaceSide(star_.faces[fan.face[k]].corner / 3) == now;
-      }
-      if (pivot && !fan.IsOutside(k)) {
-        const uint32_t vertex = star_.neighbours[fan.neighbour[k]].vertex;
-        holds = holds && oracle.NewFaceForward(vertex) == (k == cut.end);
-      }
-    }
-    if (holds) return cut;
-  }
-  return kNoCut;
-}
-
-void SplitCoder::PartFan(const Fan& fan, FanCut cut) {
-  Side now = kSecond;
-  for (uint32_t k = cut.begin, steps = 0; steps < fan.places; ++steps, k = fan.Next(k)) {
-    if (k == cut.end) now = kFirst;
-    if (!fan.IsOutside(k)) {
-      const bool pivot = k == cut.begin || k == cut.end;
-      star_.neighbours[fan.neighbour[k]].side = pivot ? kBoth : now;
-    }
-    if (fan.face[k] != kNone) star_.faces[fan.face[k]].side = now;
-  }
-}
-
 template <class Coder>
 bool SplitCoder::CodeFan(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
                          const Known& known, SplitOracle* oracle, SplitMeters* meters) {
-  const Fan fan = FindFan(star_);
-  if (fan.places == 0) return false;
+  fan_ = FindFan(star_);
+  if (fan_.places == 0) return false;
   coder.SetMeter(&meters->connected);
   FanCut truth;
-  if constexpr (Coder::kEncoding) truth = TrueCut(fan, *oracle);
-  const uint32_t context = DegreeBucket(star_.neighbours.size()) * 2 + (fan.open ? 1 : 0);
-  if (!fan_.Code(coder, {context}, 0, truth.begin != truth.end)) return false;
-  star_.connected = true;
-  auto relative = [&](const Int3& p) {
-    return Vector3{static_cast<double>(p.x) - known.first.x, static_cast<double>(p.y) - known.first.y,
-                   static_cast<double>(p.z) - known.first.z};
-  };
+  if constexpr (Coder::kEncoding) truth = TrueCut(fan_, star_, *oracle);
+  const uint32_t context = DegreeBucket(star_.neighbours.size()) * 2 + (fan_.open ? 1 : 0);
+  if (!stays_fan_.Code(coder, {context}, 0, truth.begin != truth.end)) return false;
+  auto relative = [&](const Int3& p) { return Difference(p, known.first); };
   const uint32_t vertices = complex.vertex_count();
-  for (uint32_t k = 0; k < fan.places; ++k) {
-    if (fan.IsOutside(k)) continue;
-    const uint32_t vertex = star_.neighbours[fan.neighbour[k]].vertex;
-    spokes_[k] = {relative(positions[vertex]), complex.Degree(vertex),
-                  static_cast<double>(vertex) / vertices, vertex > star_.vertex,
-                  vertices - last_split_[vertex]};
+  for (uint32_t place = 0; place < fan_.places; ++place) {
+    if (fan_.IsOutside(place)) continue;
+    const uint32_t vertex = star_.neighbours[fan_.neighbour[place]].vertex;
+    spokes_[place] = {relative(positions[vertex]), complex.Degree(vertex),
+                      static_cast<double>(vertex) / vertices, vertex > star_.vertex,
+                      vertices - last_split_[vertex]};
   }
   coder.SetMeter(&meters->pivots);
-  const FanCut cut = fan_model_->Code(coder, fan, spokes_, relative(known.second), truth);
-  PartFan(fan, cut);
-  fan_ring_ = fan;
-  cut_ = cut;
+  cut_ = fan_model_->Code(coder, fan_, spokes_, relative(known.second), truth);
+  star_.connected = true;
+  PartFan(fan_, cut_, &star_);
   return true;
 }
 
@@ -380,8 +326,8 @@ void SplitCoder::CodeNewFaces(Coder& coder, SplitOracle* oracle, Complex& comple
 
 void SplitCoder::AddFanFaces(Complex& complex) {
   for (uint32_t place : {cut_.begin, cut_.end}) {
-    if (fan_ring_.IsOutside(place)) continue;
-    auto& pivot = star_.neighbours[fan_ring_.neighbour[place]];
+    if (fan_.IsOutside(place)) continue;
+    auto& pivot = star_.neighbours[fan_.neighbour[place]];
     pivot.new_face = place == cut_.end ? complex.AddFace(star_.vertex, star_.second, pivot.vertex)
                                        : complex.AddFace(star_.second, star_.vertex, pivot.vertex);
   }
@@ -414,15 +360,16 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
                           uint32_t vertex, const Known& known, SplitOracle* oracle,
                           SplitMeters* meters, uint64_t* exception_meter) {
   Gather(complex, vertex);
+  owns_child_edge_ = known.code_connected;
   while (last_split_.size() < complex.vertex_count()) {
     last_split_.push_back(static_cast<uint32_t>(last_split_.size()));
   }
-  if (settings_.fan_cuts && known.all == kUndecided && (known.code_connected || known.connected) &&
-      CodeFan(coder, complex, positions, known, oracle, meters)) {
+  const bool may_stay_fan =
+      settings_.fan_cuts && known.all == kUndecided && (known.code_connected || known.connected);
+  if (may_stay_fan && CodeFan(coder, complex, positions, known, oracle, meters)) {
     last_split_[vertex] = complex.vertex_count();
     star_.second = complex.AddVertex();
     star_.child_edge = kNone;
-    owns_child_edge_ = known.code_connected;
     ApplySides(complex);
     AddFanFaces(complex);
     if constexpr (Coder::kEncoding) oracle->Commit(star_);
@@ -434,7 +381,6 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
   star_.child_edge = kNone;
   coder.SetMeter(&meters->connected);
   star_.connected = known.connected;
-  owns_child_edge_ = known.code_connected;
   if (known.code_connected) {
     double ratio = mean_distance_ > 0 ? 64 * children_distance_ / mean_distance_ : 0;
     uint32_t bucket = static_cast<uint32_t>(

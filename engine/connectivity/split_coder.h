@@ -75,9 +75,6 @@ class SplitCoder {
   template <class Coder>
   bool CodeFan(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
                const Known& known, SplitOracle* oracle, SplitMeters* meters);
-  /// The cut of the fan; places 0 and 0 when the split does anything else to it.
-  FanCut TrueCut(const Fan& fan, const SplitOracle& oracle) const;
-  void PartFan(const Fan& fan, FanCut cut);
   void AddFanFaces(Complex& complex);
   void SortPivotCandidates();
   template <class Coder>
@@ -104,7 +101,7 @@ class SplitCoder {
 
   ConnectivitySettings settings_;
   SplitStar star_;
-  Fan fan_ring_;
+  Fan fan_;
   FanCut cut_;
   std::array<FanModel::Spoke, Fan::kMostPlaces> spokes_;
   std::vector<uint32_t> last_split_;  ///< per vertex: number of vertices when it was split or made
@@ -116,7 +113,7 @@ class SplitCoder {
   double children_distance_ = 0;
   double mean_distance_ = 0;
 
-  MixedModel<1> fan_;
+  MixedModel<1> stays_fan_;
   std::unique_ptr<FanModel> fan_model_;
   MixedModel<2> connected_;
   MixedModel<3> pivot_;

@@ -56,7 +56,6 @@ uint32_t AtMost(uint32_t value, uint32_t most) { return value < most ? value : m
 SplitCoder::SplitCoder(ConnectivitySettings settings)
     : settings_(settings),
       stays_fan_({2 * kDegreeBuckets}),
-      fan_model_(settings.fan_cuts ? std::make_unique<FanModel>() : nullptr),
       connected_({kDegreeBuckets * 4, 16 * 4}, 1),
       pivot_({8 * 4 * 2 * kDegreeBuckets, kRegularityBuckets * 4 * 9, 4 * kLeanBuckets * 8 * 4}, 8),
       side_({kLeanBuckets * 4 * 2, 3 * 3 * kLeanBuckets * 2, kDegreeBuckets * kLeanBuckets}, 4),
@@ -139,6 +138,7 @@ bool SplitCoder::CodeFan(Coder& coder, const Complex& complex, const std::vector
                       vertices - last_split_[vertex]};
   }
   coder.SetMeter(&meters->pivots);
+  if (!fan_model_) fan_model_ = std::make_unique<FanModel>();
   cut_ = fan_model_->Code(coder, fan_, spokes_, relative(known.second), truth);
   star_.connected = true;
   PartFan(fan_, cut_, &star_);

@@ -114,7 +114,7 @@ class SplitCoder {
   double mean_distance_ = 0;
 
   MixedModel<1> stays_fan_;
-  std::unique_ptr<FanModel> fan_model_;
+  std::unique_ptr<FanModel> fan_model_;  ///< from the first fan on: most seams have none
   MixedModel<2> connected_;
   MixedModel<3> pivot_;
   MixedModel<3> side_;

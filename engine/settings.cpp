@@ -58,6 +58,9 @@ constexpr SettingKey kKeys[] = {
      "up to this part of a subtree's vertices sets are split by distortion, one flag each; then by "
      "spacing",
      "", 0, 1},
+    {"fan_cuts", &S::fan_cuts,
+     "splits of discs and half discs of faces at once, the likeliest first; flags for the others",
+     ""},
     {"pivot_order", &S::pivot_order,
      "pivot flags in order of regularity (section 3); false: by vertex id", ""},
     {"nearer_child", &S::nearer_child, "side flags relative to the nearer child (section 3)", ""},

@@ -111,7 +111,7 @@ OffsetSettings CodecParameters::offsets() const {
 }
 
 ConnectivitySettings CodecParameters::connectivity() const {
-  return {settings.pivot_order, settings.nearer_child};
+  return {settings.fan_cuts, settings.pivot_order, settings.nearer_child};
 }
 
 namespace {

@@ -31,7 +31,7 @@ class Complex {
   };
 
   uint32_t AddVertex() {
-    heads_.push_back({kNone, kNone});
+    heads_.push_back({kNone, kNone, 0});
     return static_cast<uint32_t>(heads_.size() - 1);
   }
   /// Returns the edge; half-edge 2e starts at `a`.
@@ -59,6 +59,7 @@ class Complex {
       half_edges_[moved.previous].next = moved.next;
     }
     if (moved.next != kNone) half_edges_[moved.next].previous = moved.previous;
+    --heads_[from].degree;
     LinkHalfEdge(half_edge, to);
     half_edges_[half_edge ^ 1].target = to;
   }
@@ -78,6 +79,8 @@ class Complex {
   uint32_t edge_count() const { return static_cast<uint32_t>(half_edges_.size() / 2); }
   uint32_t face_count() const { return static_cast<uint32_t>(corners_.size() / 3); }
   uint32_t FirstHalfEdge(uint32_t vertex) const { return heads_[vertex].half_edge; }
+  /// Number of edges.
+  uint32_t Degree(uint32_t vertex) const { return heads_[vertex].degree; }
   uint32_t FirstCorner(uint32_t vertex) const { return heads_[vertex].corner; }
   const HalfEdge& half_edge(uint32_t index) const { return half_edges_[index]; }
   const Corner& corner(uint32_t index) const { return corners_[index]; }
@@ -100,6 +103,7 @@ class Complex {
   struct Heads {
     uint32_t half_edge;
     uint32_t corner;
+    uint32_t degree;
   };
   void LinkHalfEdge(uint32_t half_edge, uint32_t vertex) {
     uint32_t first = heads_[vertex].half_edge;
@@ -107,6 +111,7 @@ class Complex {
     half_edges_[half_edge].previous = kNone;
     if (first != kNone) half_edges_[first].previous = half_edge;
     heads_[vertex].half_edge = half_edge;
+    ++heads_[vertex].degree;
   }
   void LinkCorner(uint32_t corner, uint32_t vertex) {
     uint32_t first = heads_[vertex].corner;

@@ -55,6 +55,7 @@ uint32_t AtMost(uint32_t value, uint32_t most) { return value < most ? value : m
 
 SplitCoder::SplitCoder(ConnectivitySettings settings)
     : settings_(settings),
+      stays_fan_({2 * kDegreeBuckets}),
       connected_({kDegreeBuckets * 4, 16 * 4}, 1),
       pivot_({8 * 4 * 2 * kDegreeBuckets, kRegularityBuckets * 4 * 9, 4 * kLeanBuckets * 8 * 4}, 8),
       side_({kLeanBuckets * 4 * 2, 3 * 3 * kLeanBuckets * 2, kDegreeBuckets * kLeanBuckets}, 4),
@@ -115,6 +116,33 @@ void SplitCoder::Measure(const std::vector<Int3>& positions, const Known& known)
     mean_distance_ += std::sqrt(SquaredDistance(position, parent));
   }
   if (!star_.neighbours.empty()) mean_distance_ /= static_cast<double>(star_.neighbours.size());
+}
+
+template <class Coder>
+bool SplitCoder::CodeFan(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
+                         const Known& known, SplitOracle* oracle, SplitMeters* meters) {
+  fan_ = FindFan(star_);
+  if (fan_.places == 0) return false;
+  coder.SetMeter(&meters->connected);
+  FanCut truth;
+  if constexpr (Coder::kEncoding) truth = TrueCut(fan_, star_, *oracle);
+  const uint32_t context = DegreeBucket(star_.neighbours.size()) * 2 + (fan_.open ? 1 : 0);
+  if (!stays_fan_.Code(coder, {context}, 0, truth.begin != truth.end)) return false;
+  auto relative = [&](const Int3& p) { return Difference(p, known.first); };
+  const uint32_t vertices = complex.vertex_count();
+  for (uint32_t place = 0; place < fan_.places; ++place) {
+    if (fan_.IsOutside(place)) continue;
+    const uint32_t vertex = star_.neighbours[fan_.neighbour[place]].vertex;
+    spokes_[place] = {relative(positions[vertex]), complex.Degree(vertex),
+                      static_cast<double>(vertex) / vertices, vertex > star_.vertex,
+                      vertices - last_split_[vertex]};
+  }
+  coder.SetMeter(&meters->pivots);
+  if (!fan_model_) fan_model_ = std::make_unique<FanModel>();
+  cut_ = fan_model_->Code(coder, fan_, spokes_, relative(known.second), truth);
+  star_.connected = true;
+  PartFan(fan_, cut_, &star_);
+  return true;
 }
 
 void SplitCoder::SortPivotCandidates() {
@@ -296,6 +324,15 @@ void SplitCoder::CodeNewFaces(Coder& coder, SplitOracle* oracle, Complex& comple
   }
 }
 
+void SplitCoder::AddFanFaces(Complex& complex) {
+  for (uint32_t place : {cut_.begin, cut_.end}) {
+    if (fan_.IsOutside(place)) continue;
+    auto& pivot = star_.neighbours[fan_.neighbour[place]];
+    pivot.new_face = place == cut_.end ? complex.AddFace(star_.vertex, star_.second, pivot.vertex)
+                                       : complex.AddFace(star_.second, star_.vertex, pivot.vertex);
+  }
+}
+
 void SplitCoder::ApplySides(Complex& complex) {
   for (auto& neighbour : star_.neighbours) {
     if (neighbour.side == kSecond) {
@@ -323,12 +360,27 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
                           uint32_t vertex, const Known& known, SplitOracle* oracle,
                           SplitMeters* meters, uint64_t* exception_meter) {
   Gather(complex, vertex);
+  owns_child_edge_ = known.code_connected;
+  while (last_split_.size() < complex.vertex_count()) {
+    last_split_.push_back(static_cast<uint32_t>(last_split_.size()));
+  }
+  const bool may_stay_fan =
+      settings_.fan_cuts && known.all == kUndecided && (known.code_connected || known.connected);
+  if (may_stay_fan && CodeFan(coder, complex, positions, known, oracle, meters)) {
+    last_split_[vertex] = complex.vertex_count();
+    star_.second = complex.AddVertex();
+    star_.child_edge = kNone;
+    ApplySides(complex);
+    AddFanFaces(complex);
+    if constexpr (Coder::kEncoding) oracle->Commit(star_);
+    return star_.second;
+  }
+  last_split_[vertex] = complex.vertex_count();
   Measure(positions, known);
   star_.second = complex.AddVertex();
   star_.child_edge = kNone;
   coder.SetMeter(&meters->connected);
   star_.connected = known.connected;
-  owns_child_edge_ = known.code_connected;
   if (known.code_connected) {
     double ratio = mean_distance_ > 0 ? 64 * children_distance_ / mean_distance_ : 0;
     uint32_t bucket = static_cast<uint32_t>(

@@ -7,9 +7,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "engine/connectivity/complex.h"
+#include "engine/connectivity/fan.h"
+#include "engine/connectivity/fan_model.h"
 #include "engine/connectivity/split_oracle.h"
 #include "engine/connectivity/split_star.h"
 #include "engine/entropy/mixed_model.h"
@@ -18,8 +21,9 @@
 
 namespace folprom {
 
-/// Which of the paper's techniques are on.
+/// Which techniques are on: fans parted at once, and two of the paper's.
 struct ConnectivitySettings {
+  bool fan_cuts = true;
   bool pivot_order = true;
   bool nearer_child = true;
 };
@@ -67,6 +71,11 @@ class SplitCoder {
  private:
   void Gather(const Complex& complex, uint32_t vertex);
   void Measure(const std::vector<Int3>& positions, const Known& known);
+  /// Returns whether the star is a fan that stays one; it is parted then, but for the new faces.
+  template <class Coder>
+  bool CodeFan(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
+               const Known& known, SplitOracle* oracle, SplitMeters* meters);
+  void AddFanFaces(Complex& complex);
   void SortPivotCandidates();
   template <class Coder>
   void CodePivots(Coder& coder, SplitOracle* oracle, SplitMeters* meters);
@@ -92,6 +101,10 @@ class SplitCoder {
 
   ConnectivitySettings settings_;
   SplitStar star_;
+  Fan fan_;
+  FanCut cut_;
+  std::array<FanModel::Spoke, Fan::kMostPlaces> spokes_;
+  std::vector<uint32_t> last_split_;  ///< per vertex: number of vertices when it was split or made
   std::vector<uint32_t> slot_of_vertex_;  ///< index into star_.neighbours, valid where stamped
   std::vector<uint32_t> order_;
   std::vector<uint32_t> stack_;
@@ -100,6 +113,8 @@ class SplitCoder {
   double children_distance_ = 0;
   double mean_distance_ = 0;
 
+  MixedModel<1> stays_fan_;
+  std::unique_ptr<FanModel> fan_model_;  ///< from the first fan on: most seams have none
   MixedModel<2> connected_;
   MixedModel<3> pivot_;
   MixedModel<3> side_;

@@ -101,6 +101,7 @@ TEST_F(Config, PaperFileHoldsThePapersConstants) {
   EXPECT_EQ(codec["hierarchy"].value<std::string>(), "lloyd");
   EXPECT_EQ(codec["representative"].value<std::string>(), "curvature");
   EXPECT_EQ(codec["offsets"].value<std::string>(), "cylindrical");
+  EXPECT_EQ(codec["fan_cuts"].value<bool>(), false);
   for (const char* key :
        {"subtree_normals", "normal_metric", "adaptive_quantisation", "predict_theta",
         "predict_height", "split_first", "pivot_order", "nearer_child"}) {

@@ -54,7 +54,7 @@ Bytes FileOfKind(size_t kind) {
       options.codec.quantisation_levels = 4096;
       break;
     default:
-      options.codec.pivot_order = options.codec.nearer_child = false;
+      options.codec.fan_cuts = options.codec.pivot_order = options.codec.nearer_child = false;
       options.codec.quantisation_levels = 2;
       options.codec.subtree_vertices = 20;
       break;

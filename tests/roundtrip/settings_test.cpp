@@ -70,7 +70,7 @@ std::vector<Case> Combinations() {
   }
   CodecSettings off;
   off.normal_metric = off.adaptive_quantisation = off.predict_theta = off.predict_height = false;
-  off.split_first = off.pivot_order = off.nearer_child = false;
+  off.split_first = off.fan_cuts = off.pivot_order = off.nearer_child = false;
   off.representative = Representative::kCentre;
   cases.push_back({"EveryTechniqueOff", off});
   for (double first : {0.0, 0.3, 1.0}) {

@@ -61,6 +61,9 @@ struct CodecSettings {
   double distortion_first = 0.05;
 
   // Connectivity (section 3)
+  /// A split of a disc or half disc of faces into two such is told by its place among all of them,
+  /// the likeliest first; flags are for all other splits. false: flags only.
+  bool fan_cuts = true;
   bool pivot_order = true;   ///< flags in order of regularity; false: by vertex id
   bool nearer_child = true;  ///< side flags relative to the nearer child
 

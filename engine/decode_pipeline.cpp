@@ -9,20 +9,22 @@
 namespace folprom {
 namespace {
 
-/// Per vertex of a subtree: complex, cells and sets 420, results 60.
-constexpr uint64_t kBytesPerVertex = 480;
+/// Per vertex of a subtree: complex, cells and sets 420, results 60; exact positions twice.
+constexpr uint64_t kBytesPerVertex = 480, kExactBytesPerVertex = 48;
 
 /// How many subtrees may be under way or waiting for their turn.
-size_t WindowOf(const io::FileTable& table, const std::vector<uint32_t>& subtrees,
+size_t WindowOf(const io::FileTable& table, const std::vector<uint32_t>& subtrees, bool has_rests,
                 uint64_t memory_bytes, int threads) {
   uint64_t largest = 1;
   for (uint32_t s : subtrees) largest = std::max<uint64_t>(largest, table.subtrees[s].vertices);
-  uint64_t fitting = memory_bytes / 2 / (largest * kBytesPerVertex);
+  uint64_t per_vertex = kBytesPerVertex + (has_rests ? kExactBytesPerVertex : 0);
+  uint64_t fitting = memory_bytes / 2 / (largest * per_vertex);
   return static_cast<size_t>(std::clamp<uint64_t>(fitting, 1, 3 * static_cast<uint64_t>(threads)));
 }
 
 struct DecodedPart {
   std::vector<Int3> positions;
+  std::vector<ExactPosition> exact;
   std::vector<Face> faces;
   std::vector<uint32_t> border_vertices;
 };
@@ -62,14 +64,15 @@ class Pipeline {
     uint64_t vertices = 0;
     for (uint32_t s : needed_) vertices += table_.subtrees[s].vertices;
     progress_.StartStage("decode", vertices);
-    size_t window = WindowOf(table_, needed_, memory_bytes_, runner_.threads());
+    size_t window =
+        WindowOf(table_, needed_, parameters_.has_rests(), memory_bytes_, runner_.threads());
     std::vector<DecodedPart> parts(needed_.size());
     runner_.Ordered(
         needed_.size(), window, [&](size_t i) { parts[i] = DecodeSubtree(needed_[i]); },
         [&](size_t i) {
           if (IsWanted(needed_[i])) {
-            sink_.AddSubtree(needed_[i], parts[i].positions, parts[i].faces,
-                             parts[i].border_vertices);
+            sink_.AddSubtree({needed_[i], parts[i].positions, parts[i].exact, parts[i].faces,
+                              parts[i].border_vertices});
           }
           parts[i] = DecodedPart();
           progress_.Advance(table_.subtrees[needed_[i]].vertices);
@@ -82,6 +85,7 @@ class Pipeline {
     for (size_t layer = 0; layer < selection_.layers; ++layer) reader.DecodeLayer();
     DecodedPart part;
     part.positions = reader.state().positions();
+    part.exact = reader.state().exact_positions();
     reader.state().AppendFaces(&part.faces);
     if (has_border_[subtree]) {
       part.border_vertices = reader.state().BorderVertices();
@@ -145,8 +149,9 @@ class Pipeline {
 
 std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, const double* lo,
                                     const double* hi) {
-  // A representative lies no further than the error bound from each vertex that it stands for.
-  double slack = static_cast<double>(table.layers[layers - 1].error_bound) / table.unit + 1;
+  // A representative lies no further than the error bound from each vertex that it stands for; a
+  // step for what is left over of exact coordinates, and one for arithmetic.
+  double slack = static_cast<double>(table.layers[layers - 1].error_bound) / table.unit + 2;
   std::vector<uint32_t> found;
   for (uint32_t s = 0; s < table.subtrees.size(); ++s) {
     bool meets = true;

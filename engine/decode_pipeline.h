@@ -7,6 +7,7 @@
 
 #include "engine/codec/parameters.h"
 #include "engine/codec/seam_coder.h"
+#include "engine/mesh/lattice.h"
 #include "engine/mesh/types.h"
 #include "io/container/reader.h"
 #include "io/spill/spill.h"
@@ -15,14 +16,26 @@
 
 namespace folprom {
 
+/// A decoded subtree.
+struct SubtreePart {
+  uint32_t subtree = 0;
+  std::span<const Int3> positions;
+  std::span<const ExactPosition> exact;  ///< of the same, where they are not on the lattice
+  std::span<const Face> faces;
+  /// Vertex of each border set; by these sets the seams name their corners.
+  std::span<const uint32_t> border_vertices;
+
+  /// Model units.
+  ExactPosition Position(const Lattice& lattice, size_t vertex) const {
+    return exact.empty() ? lattice.ToModel(positions[vertex]) : exact[vertex];
+  }
+};
+
 /// Receives the parts of a mesh one at a time: subtrees in ascending order, then seams.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;
-  /// border_vertices[b]: vertex of border set b; by it the seams name their corners.
-  virtual void AddSubtree(uint32_t subtree, std::span<const Int3> positions,
-                          std::span<const Face> faces,
-                          std::span<const uint32_t> border_vertices) = 0;
+  virtual void AddSubtree(const SubtreePart& part) = 0;
   virtual void AddSeam(std::span<const SeamFace> faces) = 0;
 };
 

@@ -20,6 +20,7 @@ BitCounts BitsOf(const CostMeters& costs) {
   counts.sides = bits(costs.connectivity.sides);
   counts.exceptions = bits(costs.exceptions);
   counts.seams = bits(costs.seams);
+  counts.rests = bits(costs.rests);
   return counts;
 }
 

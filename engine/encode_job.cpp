@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/codec/border_file.h"
+#include "engine/exact_resolution.h"
 #include "io/container/writer.h"
 #include "parallel/memory_budget.h"
 
@@ -73,7 +74,7 @@ Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, const EncodeO
   if (longest > kLargestSide || (longest > 0 && longest < kSmallestSide)) {
     throw Failure(ErrorKind::kInput, "the coordinates span " + Text(longest) + "; sides from " +
                                          Text(kSmallestSide) + " to " + Text(kLargestSide) +
-                                         " can be coded");
+                                         " can be coded, others with --exact");
   }
   double steps = static_cast<double>((uint64_t{1} << options.bits) - 1);
   result.tolerance = options.tolerance > 0 ? options.tolerance : longest / steps / 2;
@@ -104,18 +105,30 @@ Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, const EncodeO
 EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
                      parallel::Runner& runner, parallel::Progress& progress)
     : options_(options), runner_(runner), progress_(progress) {
-  CheckSettings(options.codec).value();
+  CheckOptions(options).value();
   source_ = io::MeshSource::Open(input).value();
   spill_ = std::make_unique<io::SpillDirectory>(options.temporary_folder);
 }
 
 void EncodeJob::MeasureScan() {
+  if (options_.exact) {
+    MeasureExactScan();
+    return;
+  }
   Bounds bounds = MeasureBounds(*source_, runner_, progress_);
   try {
     resolution_ = ResolutionOf(bounds, source_->coordinate_type(), options_);
   } catch (const Failure& failure) {
     throw Failure(failure.error().kind, source_->path() + ": " + failure.error().message);
   }
+}
+
+void EncodeJob::MeasureExactScan() {
+  const bool is_float = OutputType(source_->coordinate_type()) == io::ScalarType::kFloat32;
+  resolution_.lattice =
+      ExactLatticeFor(TakeCensus(*source_, is_float, runner_, progress_), is_float);
+  resolution_.lattice.exact->step.has_rests =
+      HasRests(*source_, resolution_.lattice, runner_, progress_);
 }
 
 void EncodeJob::Partition() {
@@ -133,6 +146,7 @@ void EncodeJob::Partition() {
   const auto& extent = resolution_.lattice.extent;
   parameters_.settings = options_.codec;
   parameters_.extent = {extent[0], extent[1], extent[2]};
+  parameters_.exact = resolution_.lattice.exact;
   uint32_t per_octave = options_.codec.layers_per_octave;
   double edge = TypicalEdge();
   Offsets offsets = options_.codec.offsets;
@@ -174,7 +188,7 @@ void EncodeJob::EncodeSubtrees(bool keep_order) {
     size_t subtree = order[i];
     const SubtreeSummary& summary = scan_->summary(subtree);
     progress_.ThrowIfCancelled();
-    auto lease = budget.Acquire(EncodeSubtreeBytes(summary));
+    auto lease = budget.Acquire(EncodeSubtreeBytes(summary, parameters_));
     SubtreeChunk chunk = scan_->Load(subtree);
     EncodedSubtree encoded =
         EncodeSubtree(chunk, summary, static_cast<uint32_t>(subtree), parameters_);
@@ -276,9 +290,12 @@ io::FileTable EncodeJob::MakeTable() {
     table.digest.faces += outcome.digest.faces;
     costs_ += outcome.meters;
   }
-  table.kind_bits = {costs_.split / 1024,      (costs_.root + costs_.offsets.Sum()) / 1024,
-                     costs_.refinement / 1024, costs_.connectivity.Sum() / 1024,
-                     costs_.exceptions / 1024, costs_.seams / 1024};
+  table.kind_bits = {costs_.split / 1024,
+                     (costs_.root + costs_.offsets.Sum()) / 1024,
+                     (costs_.refinement + costs_.rests) / 1024,
+                     costs_.connectivity.Sum() / 1024,
+                     costs_.exceptions / 1024,
+                     costs_.seams / 1024};
   for (uint32_t layer : kept_layers_) {
     io::LayerRecord record;
     double distance = 0;
@@ -289,9 +306,12 @@ io::FileTable EncodeJob::MakeTable() {
       table.segment_bytes.push_back(outcome.inner_bytes[layer]);
       table.segment_bytes.push_back(outcome.seam_bytes[layer]);
     }
-    // Up to the next float, and half a lattice unit per axis for the rounding of the original.
-    double bound = outcomes_.empty() ? 0 : (distance + 1) * resolution_.lattice.unit;
+    // Up to the next float, and half a lattice unit per axis for the rounding of the original, or a
+    // whole one where rests follow in the last layer.
+    double rounding = parameters_.exact ? 2 : 1;
+    double bound = outcomes_.empty() ? 0 : (distance + rounding) * resolution_.lattice.unit;
     record.error_bound = std::nextafter(static_cast<float>(bound), INFINITY);
+    if (parameters_.exact && layer == kept_layers_.back()) record.error_bound = 0;
     table.layers.push_back(record);
   }
   return table;

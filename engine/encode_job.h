@@ -55,6 +55,7 @@ class EncodeJob {
   std::vector<std::string> Warnings() const;
 
  private:
+  void MeasureExactScan();
   /// What stays in memory of a subtree and its seam once their bits are spilled.
   struct Outcome {
     std::vector<uint32_t> inner_bytes, seam_bytes;  ///< per layer

@@ -22,7 +22,7 @@ class FolpFile {
   const io::FileTable& table() const { return container_.table(); }
   const CodecParameters& parameters() const { return parameters_; }
   uint64_t bytes_present() const { return file_.bytes().size(); }
-  Lattice lattice() const { return {table().origin, table().unit, table().extent}; }
+  Lattice lattice() const { return LatticeOf(table(), parameters_); }
 
  private:
   CodecParameters Parameters(const std::string& path) const {

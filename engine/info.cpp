@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "engine/folp_file.h"
 #include "engine/run_guarded.h"
@@ -65,6 +66,12 @@ Result<FileInfo> ReadInfo(const std::string& input) {
     info.subtrees = table.subtrees.size();
     info.tolerance = table.tolerance;
     Lattice lattice = file.lattice();
+    if (lattice.exact) {
+      const ExactStep& step = lattice.exact->step;
+      const auto longest = *std::max_element(table.extent.begin(), table.extent.end());
+      info.exact = {step.is_float, step.radix, step.exponent, std::log2(longest + 1.0),
+                    step.has_rests};
+    }
     for (int axis = 0; axis < 3; ++axis) {
       size_t i = static_cast<size_t>(axis);
       info.box_lo[i] = lattice.ToModel(axis, 0);

@@ -6,6 +6,7 @@
 #include "engine/mesh/lattice.h"
 #include "folprom/decoder.h"
 #include "io/container/reader.h"
+#include "io/formats/mesh_source.h"
 
 namespace folprom {
 
@@ -91,17 +92,19 @@ Result<void> MemoryDecoder::DecodeNextLayer() {
 
 DecodedMesh MemoryDecoder::Mesh() const {
   const io::FileTable& table = impl_->container.table();
-  Lattice lattice{table.origin, table.unit, table.extent};
+  const Lattice lattice = LatticeOf(table, impl_->parameters);
   DecodedMesh mesh;
+  mesh.is_float = static_cast<io::ScalarType>(table.coordinate_type) == io::ScalarType::kFloat32;
   std::vector<uint64_t> base;
   std::vector<std::vector<uint32_t>> border;
   std::vector<Face> faces;
   for (const SubtreeReader& subtree : impl_->subtrees) {
     base.push_back(mesh.positions.size());
     border.push_back(subtree.state().BorderVertices());
+    const std::vector<ExactPosition>& exact = subtree.state().exact_positions();
+    mesh.positions.insert(mesh.positions.end(), exact.begin(), exact.end());
     for (const Int3& p : subtree.state().positions()) {
-      mesh.positions.push_back(
-          {lattice.ToModel(0, p.x), lattice.ToModel(1, p.y), lattice.ToModel(2, p.z)});
+      if (exact.empty()) mesh.positions.push_back(lattice.ToModel(p));
     }
     faces.clear();
     subtree.state().AppendFaces(&faces);

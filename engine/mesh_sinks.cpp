@@ -21,26 +21,44 @@ std::vector<T>& EntryFor(std::vector<std::vector<T>>& table, uint32_t subtree) {
   return table[subtree];
 }
 
+/// Adds vertices and faces to the digest, and the positions of the border sets to *border.
+template <class Position>
+void AddPart(std::span<const Position> positions, const SubtreePart& part, io::MeshDigest* digest,
+             std::vector<std::vector<Position>>* border) {
+  for (const Position& p : positions) AddVertex(digest, p);
+  for (const Face& f : part.faces) {
+    AddFace(digest, positions[f[0]], positions[f[1]], positions[f[2]]);
+  }
+  auto& entry = EntryFor(*border, part.subtree);
+  for (uint32_t vertex : part.border_vertices) entry.push_back(positions[vertex]);
+}
+
+template <class Position>
+void AddSeamFaces(std::span<const SeamFace> faces, const std::vector<std::vector<Position>>& border,
+                  io::MeshDigest* digest) {
+  auto at = [&](const BorderRef& ref) { return border[ref.subtree][ref.border]; };
+  for (const SeamFace& f : faces) AddFace(digest, at(f[0]), at(f[1]), at(f[2]));
+}
+
 }  // namespace
 
-void PlySink::AddSubtree(uint32_t subtree, std::span<const Int3> positions,
-                         std::span<const Face> faces, std::span<const uint32_t> border_vertices) {
-  if (positions.size() > expected_.vertices - vertices_) ThrowCountsDiffer();
+void PlySink::AddSubtree(const SubtreePart& part) {
+  if (part.positions.size() > expected_.vertices - vertices_) ThrowCountsDiffer();
   xyz_.clear();
-  xyz_.reserve(positions.size() * 3);
-  for (const Int3& p : positions) {
-    xyz_.insert(xyz_.end(),
-                {lattice_.ToModel(0, p.x), lattice_.ToModel(1, p.y), lattice_.ToModel(2, p.z)});
+  xyz_.reserve(part.positions.size() * 3);
+  for (size_t v = 0; v < part.positions.size(); ++v) {
+    const ExactPosition xyz = part.Position(lattice_, v);
+    xyz_.insert(xyz_.end(), xyz.begin(), xyz.end());
   }
   writer_.AppendVertices(xyz_).value();
-  auto& border = EntryFor(border_, subtree);
-  for (uint32_t vertex : border_vertices) border.push_back(vertices_ + vertex);
-  for (const Face& f : faces) {
+  auto& border = EntryFor(border_, part.subtree);
+  for (uint32_t vertex : part.border_vertices) border.push_back(vertices_ + vertex);
+  for (const Face& f : part.faces) {
     triangles_.push_back({vertices_ + f[0], vertices_ + f[1], vertices_ + f[2]});
     if (triangles_.size() == kFacesPerWrite) Flush(&triangles_);
   }
   Flush(&triangles_);
-  vertices_ += positions.size();
+  vertices_ += part.positions.size();
 }
 
 void PlySink::AddSeam(std::span<const SeamFace> faces) {
@@ -67,23 +85,19 @@ RegionSink::RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::ar
                        const io::SpillDirectory& spill)
     : lattice_(lattice), lo_(lo), hi_(hi), streams_(spill, "region", 2, uint64_t{1} << 20) {}
 
-void RegionSink::AddSubtree(uint32_t subtree, std::span<const Int3> positions,
-                            std::span<const Face> faces,
-                            std::span<const uint32_t> border_vertices) {
-  index_.assign(positions.size(), kOutside);
-  for (size_t v = 0; v < positions.size(); ++v) {
-    const Int3& p = positions[v];
-    std::array<double, 3> xyz{lattice_.ToModel(0, p.x), lattice_.ToModel(1, p.y),
-                              lattice_.ToModel(2, p.z)};
+void RegionSink::AddSubtree(const SubtreePart& part) {
+  index_.assign(part.positions.size(), kOutside);
+  for (size_t v = 0; v < part.positions.size(); ++v) {
+    const ExactPosition xyz = part.Position(lattice_, v);
     bool inside = true;
     for (size_t i = 0; i < 3; ++i) inside &= xyz[i] >= lo_[i] && xyz[i] <= hi_[i];
     if (!inside) continue;
     index_[v] = vertices_++;
     streams_.AppendValue(0, xyz);
   }
-  auto& border = EntryFor(border_, subtree);
-  for (uint32_t vertex : border_vertices) border.push_back(index_[vertex]);
-  for (const Face& f : faces) Keep({index_[f[0]], index_[f[1]], index_[f[2]]});
+  auto& border = EntryFor(border_, part.subtree);
+  for (uint32_t vertex : part.border_vertices) border.push_back(index_[vertex]);
+  for (const Face& f : part.faces) Keep({index_[f[0]], index_[f[1]], index_[f[2]]});
 }
 
 void RegionSink::AddSeam(std::span<const SeamFace> faces) {
@@ -116,20 +130,24 @@ void RegionSink::WriteTo(io::PlyWriter& writer) {
   }
 }
 
-void DigestSink::AddSubtree(uint32_t subtree, std::span<const Int3> positions,
-                            std::span<const Face> faces,
-                            std::span<const uint32_t> border_vertices) {
-  for (const Int3& p : positions) AddVertex(&digest_, p);
-  for (const Face& f : faces) AddFace(&digest_, positions[f[0]], positions[f[1]], positions[f[2]]);
-  auto& border = EntryFor(border_, subtree);
-  for (uint32_t vertex : border_vertices) border.push_back(positions[vertex]);
-  vertices_ += positions.size();
-  faces_ += faces.size();
+void DigestSink::AddSubtree(const SubtreePart& part) {
+  if (lattice_.exact) {
+    std::vector<ExactPosition> exact(part.positions.size());
+    for (size_t v = 0; v < exact.size(); ++v) exact[v] = part.Position(lattice_, v);
+    AddPart<ExactPosition>(exact, part, &digest_, &exact_border_);
+  } else {
+    AddPart(part.positions, part, &digest_, &border_);
+  }
+  vertices_ += part.positions.size();
+  faces_ += part.faces.size();
 }
 
 void DigestSink::AddSeam(std::span<const SeamFace> faces) {
-  auto at = [&](const BorderRef& ref) { return border_[ref.subtree][ref.border]; };
-  for (const SeamFace& f : faces) AddFace(&digest_, at(f[0]), at(f[1]), at(f[2]));
+  if (lattice_.exact) {
+    AddSeamFaces(faces, exact_border_, &digest_);
+  } else {
+    AddSeamFaces(faces, border_, &digest_);
+  }
   faces_ += faces.size();
 }
 

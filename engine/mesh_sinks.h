@@ -23,8 +23,7 @@ class PlySink final : public MeshSink {
   PlySink(const Lattice& lattice, const io::LayerRecord& expected, io::PlyWriter& writer)
       : lattice_(lattice), expected_(expected), writer_(writer) {}
   void CheckComplete() const;
-  void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
-                  std::span<const uint32_t> border_vertices) override;
+  void AddSubtree(const SubtreePart& part) override;
   void AddSeam(std::span<const SeamFace> faces) override;
   uint64_t vertices() const { return vertices_; }
   uint64_t faces() const { return faces_; }
@@ -46,8 +45,7 @@ class RegionSink final : public MeshSink {
  public:
   RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,
              const io::SpillDirectory& spill);
-  void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
-                  std::span<const uint32_t> border_vertices) override;
+  void AddSubtree(const SubtreePart& part) override;
   void AddSeam(std::span<const SeamFace> faces) override;
   uint64_t vertices() const { return vertices_; }
   uint64_t faces() const { return faces_; }
@@ -66,17 +64,19 @@ class RegionSink final : public MeshSink {
 
 class DigestSink final : public MeshSink {
  public:
-  void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
-                  std::span<const uint32_t> border_vertices) override;
+  explicit DigestSink(const Lattice& lattice) : lattice_(lattice) {}
+  void AddSubtree(const SubtreePart& part) override;
   void AddSeam(std::span<const SeamFace> faces) override;
   const io::MeshDigest& digest() const { return digest_; }
   uint64_t vertices() const { return vertices_; }
   uint64_t faces() const { return faces_; }
 
  private:
+  Lattice lattice_;
   io::MeshDigest digest_;
   uint64_t vertices_ = 0, faces_ = 0;
   std::vector<std::vector<Int3>> border_;
+  std::vector<std::vector<ExactPosition>> exact_border_;  ///< instead, of an exact lattice
 };
 
 }  // namespace folprom

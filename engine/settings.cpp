@@ -117,4 +117,13 @@ Result<void> CheckSettings(const CodecSettings& settings) {
   return {};
 }
 
+Result<void> CheckOptions(const EncodeOptions& options) {
+  if (options.exact && options.codec.offsets != Offsets::kLattice) {
+    return Error{ErrorKind::kUsage,
+                 "exact needs offsets = \"lattice\" and hierarchy = \"quadric\", as "
+                 "configs/quadric.toml has them"};
+  }
+  return CheckSettings(options.codec);
+}
+
 }  // namespace folprom

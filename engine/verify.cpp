@@ -1,6 +1,7 @@
 // Is what comes back what went in: by the digest in the file, or vertex by vertex with the scan.
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <mutex>
 #include <numeric>
@@ -10,6 +11,7 @@
 #include "engine/folp_file.h"
 #include "engine/mesh_sinks.h"
 #include "engine/run_guarded.h"
+#include "folprom/float_bits.h"
 #include "folprom/folprom.h"
 #include "io/container/checksum.h"
 
@@ -24,6 +26,9 @@ DecodeSelection Everything(const FolpFile& file) {
   return selection;
 }
 
+/// The value that a file of floats gives back.
+double AsFloat(double value) { return WidenFloat(std::bit_cast<float>(NarrowToFloatBits(value))); }
+
 /// Hash of a face by the indices of its vertices, the same for every rotation.
 uint64_t HashFace(std::array<uint64_t, 3> face) {
   std::array<uint64_t, 3> best = face;
@@ -34,22 +39,25 @@ uint64_t HashFace(std::array<uint64_t, 3> face) {
   return io::XxHash64({reinterpret_cast<const uint8_t*>(best.data()), sizeof best});
 }
 
-/// Spills decoded positions per subtree and sums the faces by their decoded vertex indices.
+/// Spills decoded positions, model units, per subtree and sums the faces by their decoded vertex
+/// indices.
 class MatchSink final : public MeshSink {
  public:
-  explicit MatchSink(const io::SpillDirectory& spill) : spill_(spill) {}
-  void AddSubtree(uint32_t subtree, std::span<const Int3> positions, std::span<const Face> faces,
-                  std::span<const uint32_t> border_vertices) override {
-    digest.AddSubtree(subtree, positions, faces, border_vertices);
+  MatchSink(const Lattice& lattice, const io::SpillDirectory& spill)
+      : digest(lattice), lattice_(lattice), spill_(spill) {}
+  void AddSubtree(const SubtreePart& part) override {
+    digest.AddSubtree(part);
+    std::vector<ExactPosition> xyz(part.positions.size());
+    for (size_t v = 0; v < xyz.size(); ++v) xyz[v] = part.Position(lattice_, v);
     io::WriteSpillFile(
-        spill_, "decoded." + std::to_string(subtree),
-        {reinterpret_cast<const uint8_t*>(positions.data()), positions.size_bytes()});
+        spill_, "decoded." + std::to_string(part.subtree),
+        {reinterpret_cast<const uint8_t*>(xyz.data()), xyz.size() * sizeof(ExactPosition)});
     base.push_back(vertices_);
-    border_.emplace_back(border_vertices.begin(), border_vertices.end());
-    for (const Face& f : faces) {
+    border_.emplace_back(part.border_vertices.begin(), part.border_vertices.end());
+    for (const Face& f : part.faces) {
       face_sum += HashFace({vertices_ + f[0], vertices_ + f[1], vertices_ + f[2]});
     }
-    vertices_ += positions.size();
+    vertices_ += part.positions.size();
   }
   void AddSeam(std::span<const SeamFace> faces) override {
     digest.AddSeam(faces);
@@ -62,6 +70,7 @@ class MatchSink final : public MeshSink {
   uint64_t face_sum = 0;
 
  private:
+  Lattice lattice_;
   const io::SpillDirectory& spill_;
   uint64_t vertices_ = 0;
   std::vector<std::vector<uint32_t>> border_;
@@ -92,7 +101,7 @@ class Comparison {
     job_.UseResolution({file_.lattice(), table.tolerance});
     job_.Partition();
     job_.EncodeSubtrees(true);
-    MatchSink sink(job_.spill());
+    MatchSink sink(file_.lattice(), job_.spill());
     DecodeInto(file_.container(), file_.parameters(), Everything(file_), memory_bytes,
                temporary_folder, runner_, progress_, sink);
     if (sink.digest.digest() != table.digest) {
@@ -108,6 +117,7 @@ class Comparison {
   static EncodeOptions OptionsFor(const FolpFile& file, const DecodeOptions& options) {
     EncodeOptions encode;
     encode.codec = file.parameters().settings;
+    encode.exact = file.lattice().exact.has_value();
     encode.memory_bytes = options.memory_bytes;
     encode.temporary_folder = options.temporary_folder;
     return encode;
@@ -161,11 +171,11 @@ class Comparison {
 
   void ComparePositions(VerifyReport* report) {
     const io::MeshSource& source = job_.source();
-    Lattice lattice = file_.lattice();
     bool as_float =
         static_cast<io::ScalarType>(file_.table().coordinate_type) == io::ScalarType::kFloat32;
     size_t blocks = source.vertex_block_count();
     std::vector<double> largest(blocks, 0);
+    std::atomic<bool> same_bits = true;
     progress_.StartStage("compare vertices", blocks);
     runner_.ForEach(blocks, [&](size_t b) {
       std::vector<double> xyz;
@@ -173,20 +183,26 @@ class Comparison {
       uint64_t first = source.vertex_block_begin(b);
       for (size_t i = 0; i < xyz.size() / 3; ++i) {
         const VertexRef& ref = job_.scan().vertex_map()[first + i];
-        const Int3& p = io::MappedArray<Int3>(decoded_[ref.subtree])[FinalVertex(ref)];
-        const int32_t k[3] = {p.x, p.y, p.z};
-        for (int axis = 0; axis < 3; ++axis) {
-          double value = lattice.ToModel(axis, k[axis]);
-          if (as_float) value = static_cast<double>(static_cast<float>(value));
-          double error = std::fabs(value - xyz[3 * i + static_cast<size_t>(axis)]);
+        const ExactPosition& p =
+            io::MappedArray<ExactPosition>(decoded_[ref.subtree])[FinalVertex(ref)];
+        for (size_t axis = 0; axis < 3; ++axis) {
+          const double value = as_float ? AsFloat(p[axis]) : p[axis], original = xyz[3 * i + axis];
+          if (std::bit_cast<uint64_t>(value) == std::bit_cast<uint64_t>(original)) continue;
+          same_bits = false;
+          double error = std::fabs(value - original);
           if (!(error <= largest[b])) largest[b] = error;
         }
       }
       if (b % 64 == 63) DropResident();
       progress_.Advance(1);
     });
-    for (double error : largest)
-      report->max_position_error = std::max(report->max_position_error, error);
+    for (double error : largest) {
+      if (!(error <= report->max_position_error)) report->max_position_error = error;
+    }
+    if (file_.lattice().exact) {
+      if (!same_bits) report->reason = "a coordinate differs from that of the scan in its bits";
+      return;
+    }
     // The last digits of the subtraction itself are no error of the coder.
     if (!(report->max_position_error <= report->tolerance * (1 + 1e-9))) {
       report->reason = "a position is off by more than the tolerance";
@@ -227,7 +243,7 @@ class Comparison {
 void CompareDigest(const FolpFile& file, const DecodeOptions& options, parallel::Runner& runner,
                    parallel::Progress& progress, VerifyReport* report) {
   const io::FileTable& table = file.table();
-  DigestSink sink;
+  DigestSink sink(file.lattice());
   DecodeInto(file.container(), file.parameters(), Everything(file), options.memory_bytes,
              options.temporary_folder, runner, progress, sink);
   if (sink.vertices() != table.vertices || sink.faces() != table.faces) {

@@ -48,6 +48,10 @@ std::vector<Key> Keys(EncodeConfig& config) {
        1, 24},
       {"encode", "tolerance", &o.tolerance, "largest error per axis; 0: from bits", "model units",
        0, kNoLimit},
+      {"encode", "exact", &o.exact,
+       "positions come back bit for bit, whatever bits and tolerance are; needs offsets = "
+       "\"lattice\"",
+       ""},
       {"encode", "threads", &config.threads, "0: all; never alters the file", "threads", 0, 1024},
       {"encode", "memory", &o.memory_bytes, "resident size to stay below; never alters the file",
        "bytes, or a text such as \"2GiB\"", 1, kNoLimit},
@@ -293,7 +297,7 @@ Result<void> CheckConfig(const EncodeConfig& config) {
       return Error{ErrorKind::kUsage, std::string(key.name) + " must be " + RangeText(key)};
     }
   }
-  return CheckSettings(config.options.codec);
+  return CheckOptions(config.options);
 }
 
 std::string ConfigText(const EncodeConfig& config) {

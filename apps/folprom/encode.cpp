@@ -22,6 +22,7 @@ constexpr const char* kDescription =
     "  folprom encode scan.ply -o scan.folp\n"
     "  folprom encode scan.ply -o scan.folp --bits 16 -T 8 -M 4GiB\n"
     "  folprom encode scan.ply -o scan.folp --config configs/paper.toml\n"
+    "  folprom encode scan.ply -o scan.folp --config configs/quadric.toml --exact\n"
     "  folprom encode --print-config > my.toml";
 
 struct EncodeFlags {
@@ -32,6 +33,7 @@ struct EncodeFlags {
   std::string config;
   std::optional<uint32_t> bits;
   std::optional<double> tolerance;
+  bool exact = false;
   std::optional<uint64_t> subtree_vertices;
   bool print_config = false;
   bool force = false;
@@ -47,6 +49,8 @@ EncodeConfig Settings(const EncodeFlags& flags) {
     options.tolerance = 0;
   }
   if (flags.tolerance) options.tolerance = *flags.tolerance;
+  if (flags.bits || flags.tolerance) options.exact = false;
+  if (flags.exact) options.exact = true;
   if (flags.subtree_vertices) {
     // What does not fit is out of range in any case.
     options.codec.subtree_vertices =
@@ -71,7 +75,8 @@ Json BitsJson(const BitCounts& bits) {
           {"pivots", bits.pivots},
           {"sides", bits.sides},
           {"exceptions", bits.exceptions},
-          {"seams", bits.seams}};
+          {"seams", bits.seams},
+          {"rests", bits.rests}};
 }
 
 void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double seconds) {
@@ -138,9 +143,12 @@ Verb AddEncode(CLI::App& program) {
                                        "Lattice of 2^N - 1 steps along the longest side; 1 .. 24")
                           ->check(CLI::Range(1, 24))
                           ->type_name("N");
-  AddPositiveOption(verb, "--tolerance", &flags->tolerance, "LENGTH",
-                    "Largest error per axis, in model units")
-      ->excludes(bits);
+  CLI::Option* tolerance = AddPositiveOption(verb, "--tolerance", &flags->tolerance, "LENGTH",
+                                             "Largest error per axis, in model units");
+  tolerance->excludes(bits);
+  verb->add_flag("--exact", flags->exact, "Positions come back bit for bit, NaN and all")
+      ->excludes(bits)
+      ->excludes(tolerance);
   AddCountOption(verb, "--subtree-vertices", &flags->subtree_vertices,
                  "Largest subtree in vertices, 20k");
   verb->add_flag("--print-config", flags->print_config,

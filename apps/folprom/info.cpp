@@ -59,6 +59,16 @@ Json CodecJson(const CodecSettings& settings) {
   return codec;
 }
 
+/// Null where the file is not exact.
+Json ExactJson(const FileInfo& info) {
+  if (!info.exact) return nullptr;
+  return {{"type", info.exact->is_float ? "float32" : "float64"},
+          {"radix", info.exact->radix},
+          {"exponent", info.exact->exponent},
+          {"bits", info.exact->bits},
+          {"has_rests", info.exact->has_rests}};
+}
+
 Json InfoJson(const FileInfo& info) {
   Json layers = Json::array();
   for (const LayerInfo& layer : info.layers) {
@@ -79,6 +89,7 @@ Json InfoJson(const FileInfo& info) {
           {"bits_per_vertex", BitsPerVertex(info)},
           {"subtrees", info.subtrees},
           {"tolerance", info.tolerance},
+          {"exact", ExactJson(info)},
           {"box_lo", info.box_lo},
           {"box_hi", info.box_hi},
           {"bits_per_vertex_by_kind", kinds},
@@ -98,6 +109,12 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
                  Grouped(info.vertices), Grouped(info.faces));
   fmt::format_to(out, "{} bytes, {:.2f} bits per vertex, {} subtrees, tolerance {:.6g}\n",
                  Grouped(info.bytes), BitsPerVertex(info), Grouped(info.subtrees), info.tolerance);
+  if (info.exact) {
+    fmt::format_to(out, "exact: every bit of a {}, on a lattice of {}^{} of {:.2f} bits{}\n",
+                   info.exact->is_float ? "float32" : "float64", info.exact->radix,
+                   -info.exact->exponent, info.exact->bits,
+                   info.exact->has_rests ? " and rests" : "");
+  }
   if (info.bytes_present < info.bytes) {
     fmt::format_to(out, "cut: {} bytes and {} of {} layers are here\n", Grouped(info.bytes_present),
                    info.layers_present, info.layers.size());

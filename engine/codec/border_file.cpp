@@ -40,6 +40,7 @@ void SpillBorder(const io::SpillDirectory& spill, uint32_t subtree, const Border
   Append(&bytes, std::vector<Int3>{record.root_position});
   Append(&bytes, vertices.original);
   Append(&bytes, vertices.position);
+  Append(&bytes, vertices.exact);
   io::WriteSpillFile(spill, NameOf(subtree), bytes);
 }
 
@@ -53,6 +54,7 @@ BorderFile LoadBorder(const io::SpillDirectory& spill, uint32_t subtree) {
   Take(&cursor, &root);
   Take(&cursor, &border.vertices.original);
   Take(&cursor, &border.vertices.position);
+  Take(&cursor, &border.vertices.exact);
   border.record.root_position = root.at(0);
   return border;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
+#include <span>
 
 #include "engine/codec/border_seam_truth.h"
 #include "engine/codec/seam_coder.h"
@@ -29,6 +31,34 @@ void CheckTolerance(const SubtreeChunk& chunk, const std::vector<Int3>& position
   }
 }
 
+/// As decoded, bit for bit; empty where the encoding is not exact.
+std::vector<ExactPosition> ExactPositionsOf(const SubtreeCoder& coder,
+                                            const CodecParameters& parameters) {
+  if (!parameters.exact || parameters.has_rests()) return coder.exact_positions();
+  std::vector<ExactPosition> exact;
+  for (const Int3& p : coder.positions()) {
+    const ExactLattice& lattice = *parameters.exact;
+    exact.push_back({lattice.ToModel(0, p.x), lattice.ToModel(1, p.y), lattice.ToModel(2, p.z)});
+  }
+  return exact;
+}
+
+void CheckBits(const SubtreeChunk& chunk, const std::vector<ExactPosition>& exact,
+               const std::vector<uint32_t>& final_vertices) {
+  for (size_t i = 0; i < chunk.exact.size(); ++i) {
+    if (std::memcmp(&chunk.exact[i], &exact[final_vertices[i]], sizeof(ExactPosition)) != 0) {
+      throw Failure(ErrorKind::kInternal, "an exact position differs from that of the scan");
+    }
+  }
+}
+
+template <class Position>
+void Digest(std::span<const Position> positions, const std::vector<Face>& faces,
+            io::MeshDigest* digest) {
+  for (const Position& position : positions) AddVertex(digest, position);
+  for (const Face& f : faces) AddFace(digest, positions[f[0]], positions[f[1]], positions[f[2]]);
+}
+
 }  // namespace
 
 SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree,
@@ -44,9 +74,10 @@ SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree,
   return BuildLloydTree(chunk.positions, surface, longest, settings);
 }
 
-uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary) {
-  // Per vertex: tree and points 220, complex and cells 420. Per face: oracle and chunk 110.
-  return (uint64_t{1} << 20) + uint64_t{summary.vertices} * 640 +
+uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary, const CodecParameters& parameters) {
+  // Per vertex: tree and points 220, complex and cells 420, exact positions as read, as coded and
+  // at the border 72. Per face: oracle and chunk 110.
+  return (uint64_t{1} << 20) + uint64_t{summary.vertices} * (parameters.exact ? 712 : 640) +
          (summary.faces + summary.cross_faces) * 110;
 }
 
@@ -54,7 +85,7 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
                              uint32_t subtree, const CodecParameters& parameters,
                              const CostMeters& meters) {
   const SetTree tree = BuildSetTree(chunk, subtree, parameters);
-  TreeTruth truth(chunk, subtree, tree);
+  TreeTruth truth(chunk, subtree, tree, parameters);
   SubtreeShape shape;
   shape.vertices = summary.vertices;
   shape.box_lo = summary.box_lo;
@@ -77,11 +108,15 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
   CheckTolerance(chunk, coder.positions(), result.final_vertices, parameters.settings.offsets);
 
   const std::vector<Int3>& positions = coder.positions();
-  for (const Int3& position : positions) AddVertex(&result.digest, position);
+  const std::vector<ExactPosition> exact = ExactPositionsOf(coder, parameters);
+  CheckBits(chunk, exact, result.final_vertices);
   std::vector<Face> faces;
   coder.AppendFaces(&faces);
-  for (const Face& f : faces)
-    AddFace(&result.digest, positions[f[0]], positions[f[1]], positions[f[2]]);
+  if (parameters.exact) {
+    Digest<ExactPosition>(exact, faces, &result.digest);
+  } else {
+    Digest<Int3>(positions, faces, &result.digest);
+  }
 
   result.border = coder.border();
   for (uint32_t v = 0; v < result.final_vertices.size(); ++v) {
@@ -94,6 +129,9 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
     }
     known.original[border] = v;
     known.position[border] = positions[result.final_vertices[v]];
+    if (!parameters.exact) continue;
+    known.exact.resize(known.position.size());
+    known.exact[border] = exact[result.final_vertices[v]];
   }
   return result;
 }
@@ -120,13 +158,19 @@ EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees,
   }
   std::vector<SeamFace> faces;
   coder.AppendFaces(&faces);
-  auto position = [&](const BorderRef& ref) {
+  auto vertices = [&](const BorderRef& ref) -> const BorderVertices& {
     size_t i = 0;
     while (subtrees[i] != ref.subtree) ++i;
-    return borders[i].vertices.position[ref.border];
+    return borders[i].vertices;
   };
+  auto position = [&](const BorderRef& ref) { return vertices(ref).position[ref.border]; };
+  auto exact = [&](const BorderRef& ref) { return vertices(ref).exact[ref.border]; };
   for (const SeamFace& f : faces) {
-    AddFace(&result.digest, position(f[0]), position(f[1]), position(f[2]));
+    if (parameters.exact) {
+      AddFace(&result.digest, exact(f[0]), exact(f[1]), exact(f[2]));
+    } else {
+      AddFace(&result.digest, position(f[0]), position(f[1]), position(f[2]));
+    }
   }
   return result;
 }

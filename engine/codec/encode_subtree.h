@@ -15,8 +15,9 @@ namespace folprom {
 
 /// What the seams and the digest need of a subtree, beside its events.
 struct BorderVertices {
-  std::vector<uint32_t> original;  ///< vertex of the chunk, per final border set
-  std::vector<Int3> position;      ///< decoded position, per final border set
+  std::vector<uint32_t> original;    ///< vertex of the chunk, per final border set
+  std::vector<Int3> position;        ///< decoded position, per final border set
+  std::vector<ExactPosition> exact;  ///< the same, of an exact encoding
 };
 
 struct EncodedSubtree {
@@ -38,7 +39,7 @@ SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree,
                      const CodecParameters& parameters);
 
 /// Upper estimate of the memory that EncodeSubtree takes.
-uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary);
+uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary, const CodecParameters& parameters);
 
 /// Throws Failure kInternal when a decoded position would miss the tolerance. `meters`: where to
 /// start counting, and into which tallies.

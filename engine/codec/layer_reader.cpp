@@ -1,7 +1,10 @@
 #include "engine/codec/layer_reader.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
+
+#include "io/formats/mesh_source.h"
 
 namespace folprom {
 namespace {
@@ -20,15 +23,42 @@ void NamingPlace(const char* part, size_t subtree, size_t layer, Work work) {
 
 }  // namespace
 
+namespace {
+
+/// What the table says of an exact lattice; origin and unit must be those of its step.
+void CompleteExact(const io::FileTable& table, ExactLattice* exact) {
+  ExactStep& step = exact->step;
+  const auto type = static_cast<io::ScalarType>(table.coordinate_type);
+  step.is_float = type == io::ScalarType::kFloat32;
+  bool agrees = (step.is_float || type == io::ScalarType::kFloat64) && table.unit == step.Unit();
+  for (size_t axis = 0; agrees && axis < 3; ++axis) {
+    const double first = std::floor(step.Scaled(table.origin[axis]) + 0.5);
+    agrees = std::fabs(first) <= static_cast<double>(ExactLattice::kLargestWhole);
+    if (!agrees) break;
+    exact->first[axis] = static_cast<int64_t>(first);
+    agrees = step.Quotient(exact->first[axis], 0) == table.origin[axis];
+  }
+  if (!agrees) {
+    throw Failure(ErrorKind::kCorrupt, "the lattice of the table is not that of the coder");
+  }
+}
+
+}  // namespace
+
 CodecParameters ParametersOf(const io::FileTable& table) {
   CodecParameters parameters =
       ReadParameters(table.codec, {table.extent[0], table.extent[1], table.extent[2]});
+  if (parameters.exact) CompleteExact(table, &*parameters.exact);
   if (parameters.schedule.layers() != table.layers.size()) {
     throw Failure(ErrorKind::kCorrupt,
                   "the coder's settings announce " + std::to_string(parameters.schedule.layers()) +
                       " layers, the table " + std::to_string(table.layers.size()));
   }
   return parameters;
+}
+
+Lattice LatticeOf(const io::FileTable& table, const CodecParameters& parameters) {
+  return {table.origin, table.unit, table.extent, parameters.exact};
 }
 
 std::vector<bool> SubtreesWithBorder(const io::FileTable& table) {

@@ -8,6 +8,7 @@
 #include "engine/codec/seam_coder.h"
 #include "engine/codec/subtree_coder.h"
 #include "engine/entropy/bit_coder.h"
+#include "engine/mesh/lattice.h"
 #include "io/container/reader.h"
 
 namespace folprom {
@@ -15,6 +16,8 @@ namespace folprom {
 /// Settings and schedule of the file. Throws Failure kCorrupt where they contradict its table.
 CodecParameters ParametersOf(const io::FileTable& table);
 SubtreeShape ShapeOf(const io::FileTable& table, size_t subtree);
+/// The lattice of the file; `parameters` are those of its table.
+Lattice LatticeOf(const io::FileTable& table, const CodecParameters& parameters);
 /// Does the subtree share a face with any other.
 std::vector<bool> SubtreesWithBorder(const io::FileTable& table);
 

@@ -139,8 +139,39 @@ std::vector<uint8_t> WriteParameters(const CodecParameters& parameters) {
                [&](const auto& field) { Append(&bytes, &field, sizeof field); });
   uint32_t counts[2] = {parameters.schedule.split_layers(), parameters.schedule.refine_layers()};
   Append(&bytes, counts, sizeof counts);
+  if (parameters.exact) {
+    const ExactStep& step = parameters.exact->step;
+    const auto radix = static_cast<uint8_t>(step.radix);
+    const auto has_rests = static_cast<uint8_t>(step.has_rests);
+    Append(&bytes, &radix, sizeof radix);
+    Append(&bytes, &step.exponent, sizeof step.exponent);
+    Append(&bytes, &has_rests, sizeof has_rests);
+  }
   return bytes;
 }
+
+namespace {
+
+/// Radix, exponent and has_rests from their 6 bytes.
+template <class Take>
+ExactLattice ReadExact(const CodecSettings& settings, Take take) {
+  uint8_t radix = 0, has_rests = 0;
+  ExactLattice exact;
+  take(&radix, sizeof radix);
+  take(&exact.step.exponent, sizeof exact.step.exponent);
+  take(&has_rests, sizeof has_rests);
+  const int32_t least = radix == 2 ? ExactStep::kLeastBits : 0;
+  const int32_t most = radix == 2 ? ExactStep::kMostBits : ExactStep::kMostDecimals;
+  if ((radix != 2 && radix != 10) || exact.step.exponent < least || exact.step.exponent > most ||
+      has_rests > 1 || settings.offsets != Offsets::kLattice) {
+    throw Failure(ErrorKind::kCorrupt, "settings of the coder: exact lattice out of range");
+  }
+  exact.step.radix = radix;
+  exact.step.has_rests = has_rests == 1;
+  return exact;
+}
+
+}  // namespace
 
 CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& extent) {
   CodecParameters parameters;
@@ -167,6 +198,7 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
   });
   uint32_t counts[2];
   take(counts, sizeof counts);
+  if (position != bytes.size()) parameters.exact = ReadExact(parameters.settings, take);
   if (position != bytes.size()) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder are longer than expected");
   }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/connectivity/split_coder.h"
 #include "engine/geometry/offset_coder.h"
+#include "engine/mesh/exact_lattice.h"
 #include "engine/mesh/types.h"
 #include "folprom/result.h"
 #include "folprom/settings.h"
@@ -58,11 +60,13 @@ struct CodecParameters {
   CodecSettings settings;
   Int3 extent;
   LayerSchedule schedule;
+  std::optional<ExactLattice> exact;  ///< positions are coded bit for bit
 
   /// Most children of a split.
   uint32_t children() const {
     return settings.hierarchy == Hierarchy::kQuadric ? 2 : settings.children;
   }
+  bool has_rests() const { return exact && exact->step.has_rests; }
   OffsetSettings offsets() const;
   ConnectivitySettings connectivity() const;
 };
@@ -70,7 +74,8 @@ struct CodecParameters {
 /// The codec's own bytes in the table of the file, and back. The schedule's counts are part of
 /// them.
 std::vector<uint8_t> WriteParameters(const CodecParameters& parameters);
-/// Throws Failure kCorrupt.
+/// Throws Failure kCorrupt. Of an exact lattice radix, exponent and has_rests are known; the rest
+/// stands in the table.
 CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& extent);
 
 }  // namespace folprom

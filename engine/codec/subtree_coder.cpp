@@ -50,6 +50,7 @@ CostMeters& CostMeters::operator+=(const CostMeters& other) {
   refinement += other.refinement;
   exceptions += other.exceptions;
   seams += other.seams;
+  rests += other.rests;
   offsets.theta += other.offsets.theta;
   offsets.rho += other.offsets.rho;
   offsets.z += other.offsets.z;
@@ -105,6 +106,10 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
     }
   } else if (!lattice) {
     CodeRefinement(coder, schedule.RefineBound(layer_), truth, meters);
+  }
+  if (layer_ + 1 == schedule.layers() && parameters_.has_rests()) {
+    coder.SetMeter(&meters->rests);
+    exact_positions_ = RestCoder(*parameters_.exact).Code(coder, positions_, truth);
   }
   border_.layer_end.push_back(static_cast<uint32_t>(border_.events.size()));
   ++layer_;

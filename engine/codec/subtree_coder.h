@@ -11,6 +11,7 @@
 #include "engine/codec/border_record.h"
 #include "engine/codec/leaf_model.h"
 #include "engine/codec/parameters.h"
+#include "engine/codec/rest_coder.h"
 #include "engine/connectivity/complex.h"
 #include "engine/connectivity/face_exceptions.h"
 #include "engine/connectivity/split_coder.h"
@@ -23,9 +24,8 @@
 namespace folprom {
 
 /// What the encoder answers. A "set" is named by the LOD vertex that stands for it.
-class SubtreeTruth {
+class SubtreeTruth : public RestTruth {
  public:
-  virtual ~SubtreeTruth() = default;
   virtual Int3 RootRepresentative() const = 0;
   /// Number of children of the set, 1 when it is a single vertex.
   virtual uint32_t ChildCount(uint32_t set) const = 0;
@@ -50,9 +50,10 @@ class SubtreeTruth {
   virtual FaceCensus CountFaces(const Complex& complex) const = 0;
 };
 
-/// Costs in 1/1024 bit. The six kinds in the table of a file are these, root and offsets together.
+/// Costs in 1/1024 bit. The six kinds in the table of a file are these, root and offsets together,
+/// and refinement and rests.
 struct CostMeters {
-  uint64_t split = 0, root = 0, refinement = 0, exceptions = 0, seams = 0;
+  uint64_t split = 0, root = 0, refinement = 0, exceptions = 0, seams = 0, rests = 0;
   OffsetMeters offsets;
   SplitMeters connectivity;
 
@@ -79,6 +80,8 @@ class SubtreeCoder {
 
   uint32_t layers_done() const { return layer_; }
   const std::vector<Int3>& positions() const { return positions_; }
+  /// Of an exact encoding with rests, after the last layer; empty otherwise.
+  const std::vector<ExactPosition>& exact_positions() const { return exact_positions_; }
   const Complex& complex() const { return complex_; }
   const BorderRecord& border() const { return border_; }
   /// Number of the border set that the vertex stands for, kNone when it touches no other subtree.
@@ -153,6 +156,7 @@ class SubtreeCoder {
 
   Complex complex_;
   std::vector<Int3> positions_;
+  std::vector<ExactPosition> exact_positions_;
   std::vector<SetRecord> sets_;
   LatticeCoder lattice_coder_;
   LatticePrecision precision_;

@@ -22,9 +22,11 @@ std::vector<Face> InnerTriples(const SubtreeChunk& chunk, uint32_t subtree) {
 
 }  // namespace
 
-TreeTruth::TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree)
+TreeTruth::TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree,
+                     const CodecParameters& parameters)
     : chunk_(chunk),
       tree_(tree),
+      parameters_(parameters),
       real_faces_(chunk.faces.size()),
       oracle_(static_cast<uint32_t>(chunk.positions.size()), InnerTriples(chunk, subtree)) {
   std::vector<bool> at_border(chunk.positions.size(), false);
@@ -97,6 +99,12 @@ void TreeTruth::EndBinarySplit(uint32_t second_set) {
 
 Int3 TreeTruth::VertexPosition(uint32_t set) const {
   return tree_.node(node_of_set_[set]).representative;
+}
+
+CoordinateRest TreeTruth::Rest(uint32_t set, size_t axis) const {
+  const uint32_t vertex = tree_.VerticesOf(node_of_set_[set])[0];
+  const int32_t extent[3] = {parameters_.extent.x, parameters_.extent.y, parameters_.extent.z};
+  return parameters_.exact->Split(axis, extent[axis], chunk_.exact[vertex][axis]).rest;
 }
 
 FaceCensus TreeTruth::CountFaces(const Complex& complex) const {

@@ -13,10 +13,11 @@
 
 namespace folprom {
 
-/// Answers a SubtreeCoder<BitEncoder>. Keeps references to the chunk and the tree.
+/// Answers a SubtreeCoder<BitEncoder>. Keeps references to all that it is given.
 class TreeTruth final : public SubtreeTruth {
  public:
-  TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree);
+  TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree& tree,
+            const CodecParameters& parameters);
 
   Int3 RootRepresentative() const override { return tree_.node(0).representative; }
   uint32_t ChildCount(uint32_t set) const override;
@@ -36,6 +37,7 @@ class TreeTruth final : public SubtreeTruth {
     return ChoosePrecision(complex, *this, open, coarsest);
   }
   SplitOracle* oracle() override { return &oracle_; }
+  CoordinateRest Rest(uint32_t set, size_t axis) const override;
   FaceCensus CountFaces(const Complex& complex) const override;
 
   /// Largest distance, lattice units, of an original vertex from its representative.
@@ -48,6 +50,7 @@ class TreeTruth final : public SubtreeTruth {
 
   const SubtreeChunk& chunk_;
   const SetTree& tree_;
+  const CodecParameters& parameters_;
   size_t real_faces_;
   SplitOracle oracle_;
   std::vector<uint32_t> border_before_;  ///< border vertices among the first i of tree_.order()

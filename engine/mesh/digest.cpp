@@ -1,17 +1,28 @@
 #include "engine/mesh/digest.h"
 
 #include <array>
-#include <cstring>
+#include <bit>
 
 #include "io/container/checksum.h"
 
 namespace folprom {
 namespace {
 
-template <size_t N>
-uint64_t Hash(const std::array<Int3, N>& points) {
-  static_assert(sizeof(points) == N * 12);
+using Bits3 = std::array<uint64_t, 3>;
+
+template <class Point, size_t N>
+uint64_t Hash(const std::array<Point, N>& points) {
+  static_assert(sizeof(Int3) == 12 && sizeof(Bits3) == 24, "no byte between the numbers");
   return io::XxHash64({reinterpret_cast<const uint8_t*>(points.data()), sizeof points});
+}
+
+template <class Point>
+uint64_t HashFace(const Point& a, const Point& b, const Point& c) {
+  std::array<Point, 3> best{a, b, c};
+  for (const auto& turned : {std::array<Point, 3>{b, c, a}, std::array<Point, 3>{c, a, b}}) {
+    if (turned < best) best = turned;
+  }
+  return Hash(best);
 }
 
 }  // namespace
@@ -20,12 +31,16 @@ void AddVertex(io::MeshDigest* digest, const Int3& position) {
   digest->vertices += Hash(std::array<Int3, 1>{position});
 }
 
-void AddFace(io::MeshDigest* digest, Int3 a, Int3 b, Int3 c) {
-  std::array<Int3, 3> best{a, b, c};
-  for (const auto& turned : {std::array<Int3, 3>{b, c, a}, std::array<Int3, 3>{c, a, b}}) {
-    if (turned < best) best = turned;
-  }
-  digest->faces += Hash(best);
+void AddFace(io::MeshDigest* digest, Int3 a, Int3 b, Int3 c) { digest->faces += HashFace(a, b, c); }
+
+void AddVertex(io::MeshDigest* digest, const ExactPosition& position) {
+  digest->vertices += Hash(std::array<Bits3, 1>{std::bit_cast<Bits3>(position)});
+}
+
+void AddFace(io::MeshDigest* digest, const ExactPosition& a, const ExactPosition& b,
+             const ExactPosition& c) {
+  digest->faces +=
+      HashFace(std::bit_cast<Bits3>(a), std::bit_cast<Bits3>(b), std::bit_cast<Bits3>(c));
 }
 
 }  // namespace folprom

@@ -18,6 +18,10 @@ double Bounds::diagonal() const {
 Int3 Lattice::FromModel(const double* xyz) const {
   std::array<int32_t, 3> k;
   for (size_t axis = 0; axis < 3; ++axis) {
+    if (exact) {
+      k[axis] = exact->Split(axis, extent[axis], xyz[axis]).k;
+      continue;
+    }
     const double steps = (xyz[axis] - origin[axis]) / unit;
     const double clamped = std::min(std::max(steps, 0.0), static_cast<double>(extent[axis]));
     k[axis] = static_cast<int32_t>(clamped);

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
+#include "engine/mesh/exact_lattice.h"
 #include "engine/mesh/types.h"
 #include "folprom/result.h"
 
@@ -20,16 +22,22 @@ struct Bounds {
 };
 
 /// position = origin + unit * k per axis, k in [0, 2^30). Both sides compute it in this order of
-/// operations, so every machine gets the same double.
+/// operations, so every machine gets the same double. An exact lattice divides integers instead;
+/// origin and unit are then what it says of k = 0 and of a step.
 struct Lattice {
   std::array<double, 3> origin{0, 0, 0};
   double unit = 1;
   std::array<int32_t, 3> extent{0, 0, 0};  ///< largest k per axis
+  std::optional<ExactLattice> exact = {};
 
   double ToModel(int axis, int32_t k) const {
-    return origin[static_cast<size_t>(axis)] + unit * static_cast<double>(k);
+    const auto i = static_cast<size_t>(axis);
+    return exact ? exact->ToModel(i, k) : origin[i] + unit * static_cast<double>(k);
   }
-  /// Nearest lattice point, clamped to the box.
+  std::array<double, 3> ToModel(const Int3& p) const {
+    return {ToModel(0, p.x), ToModel(1, p.y), ToModel(2, p.z)};
+  }
+  /// Nearest lattice point, clamped to the box; of an exact lattice the point that rests go by.
   Int3 FromModel(const double* xyz) const;
 };
 

@@ -21,7 +21,8 @@ void ThrowAtFirstNotFinite(const io::MeshSource& source, uint64_t first_vertex,
     if (std::isfinite(xyz[i])) continue;
     throw Failure(ErrorKind::kInput, source.path() + ": vertex " +
                                          std::to_string(first_vertex + i / 3) + ": coordinate " +
-                                         "xyz"[i % 3] + " is not a finite number");
+                                         "xyz"[i % 3] +
+                                         " is not a finite number (--exact keeps it)");
   }
 }
 

@@ -2,6 +2,7 @@
 #include "engine/partition/partition.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "engine/partition/job.h"
@@ -24,21 +25,28 @@ uint64_t BufferBytes(size_t streams, uint64_t memory_bytes) {
 
 class SpilledScan final : public PartitionedScan {
  public:
+  /// with_exact: keep the coordinates of the scan beside those on the lattice.
   SpilledScan(const io::SpillDirectory& spill, std::vector<SubtreeSummary> subtrees,
-              uint64_t memory_bytes)
+              uint64_t memory_bytes, bool with_exact)
       : subtrees_(std::move(subtrees)),
         positions_(spill, "partition.positions", subtrees_.size(),
                    BufferBytes(subtrees_.size(), memory_bytes)),
         faces_(spill, "partition.faces", subtrees_.size(),
                BufferBytes(subtrees_.size(), memory_bytes / 2)),
         cross_faces_(spill, "partition.cross", subtrees_.size(),
-                     BufferBytes(subtrees_.size(), memory_bytes / 2)) {}
+                     BufferBytes(subtrees_.size(), memory_bytes / 2)) {
+    if (!with_exact) return;
+    exact_.emplace(spill, "partition.exact", subtrees_.size(),
+                   BufferBytes(subtrees_.size(), memory_bytes));
+  }
 
   /// The two scatter passes.
   void Fill(Job& job, const OffsetFile& records, std::span<const uint32_t> subtree_of_voxel) {
     OffsetFile refs(job.spill, "partition.vertex_map");
-    ScatterVertices(job, records, subtree_of_voxel, subtrees_.size(), refs, positions_);
+    ScatterVertices(job, records, subtree_of_voxel, subtrees_.size(), refs, positions_,
+                    exact_ ? &*exact_ : nullptr);
     positions_.Finish();
+    if (exact_) exact_->Finish();
     vertex_map_ = refs.Map();
     ScatterFaces(job, records.Map(), vertex_map_, faces_, cross_faces_, subtrees_);
     faces_.Finish();
@@ -56,6 +64,10 @@ class SpilledScan final : public PartitionedScan {
     chunk.positions = io::MappedArray<Int3>(chunk.storage[0]);
     chunk.faces = io::MappedArray<Face>(chunk.storage[1]);
     chunk.cross_faces = io::MappedArray<CrossFace>(chunk.storage[2]);
+    if (exact_) {
+      chunk.storage.push_back(exact_->Map(subtree));
+      chunk.exact = io::MappedArray<ExactPosition>(chunk.storage[3]);
+    }
     return chunk;
   }
 
@@ -63,6 +75,7 @@ class SpilledScan final : public PartitionedScan {
     positions_.Remove(subtree);
     faces_.Remove(subtree);
     cross_faces_.Remove(subtree);
+    if (exact_) exact_->Remove(subtree);
   }
 
   std::span<const VertexRef> vertex_map() const override {
@@ -74,6 +87,7 @@ class SpilledScan final : public PartitionedScan {
   io::SpillStreams positions_;
   io::SpillStreams faces_;
   io::SpillStreams cross_faces_;
+  std::optional<io::SpillStreams> exact_;
   io::MappedFile vertex_map_;
 };
 
@@ -89,7 +103,9 @@ std::unique_ptr<PartitionedScan> Run(Job& job) {
   VoxelSplit split = SplitVoxels(voxels, normals, job.lattice, job.settings);
   job.progress.ThrowIfCancelled();
 
-  auto scan = std::make_unique<SpilledScan>(job.spill, std::move(split.subtrees), job.memory_bytes);
+  const bool with_exact = job.lattice.exact && job.lattice.exact->step.has_rests;
+  auto scan = std::make_unique<SpilledScan>(job.spill, std::move(split.subtrees), job.memory_bytes,
+                                            with_exact);
   scan->Fill(job, records, split.subtree);
   records.Remove();
   return scan;

@@ -30,6 +30,7 @@ struct SubtreeChunk {
   std::span<const Face> faces;             ///< faces that lie wholly inside, local indices
   std::span<const CrossFace> cross_faces;  ///< faces that touch it and another one
   std::vector<io::MappedFile> storage;
+  std::span<const ExactPosition> exact = {};  ///< as in the input, where the lattice leaves rests
 };
 
 struct SubtreeSummary {

@@ -22,6 +22,8 @@ struct VertexBlock {
   std::vector<VertexRecord> records;
   std::vector<VertexRef> refs;
   SubtreeGroups<Int3> positions;
+  std::vector<double> xyz;
+  SubtreeGroups<ExactPosition> exact;
 };
 
 // A cross face and the subtrees that it touches: two or three different ones, ascending.
@@ -123,11 +125,23 @@ void Append(const FaceBlock& block, io::SpillStreams& faces, io::SpillStreams& c
   }
 }
 
+// The coordinates of the block as the scan has them, by subtree.
+void CollectExact(Job& job, size_t index, size_t subtree_count, VertexBlock* block) {
+  job.source.ReadVertexBlock(index, &block->xyz).value();
+  job.resident_source.TouchedVertices(block->refs.size());
+  block->exact.Start(subtree_count, block->refs.size());
+  for (size_t i = 0; i < block->refs.size(); ++i) {
+    const double* xyz = &block->xyz[3 * i];
+    block->exact.Add(block->refs[i].subtree, {xyz[0], xyz[1], xyz[2]});
+  }
+  block->exact.Sort();
+}
+
 }  // namespace
 
 void ScatterVertices(Job& job, const OffsetFile& records,
                      std::span<const uint32_t> subtree_of_voxel, size_t subtree_count,
-                     OffsetFile& vertex_map, io::SpillStreams& positions) {
+                     OffsetFile& vertex_map, io::SpillStreams& positions, io::SpillStreams* exact) {
   BlockPool<VertexBlock> pool;
   std::vector<uint32_t> next_local(subtree_count);
   const auto produce = [&](size_t index) {
@@ -144,12 +158,14 @@ void ScatterVertices(Job& job, const OffsetFile& records,
       block.refs[i] = {subtree, block.positions.Add(subtree, record.position)};
     }
     block.positions.Sort();
+    if (exact != nullptr) CollectExact(job, index, subtree_count, &block);
   };
   const auto consume = [&](size_t index) {
     VertexBlock& block = pool.At(index);
     for (VertexRef& ref : block.refs) ref.local += next_local[ref.subtree];
     vertex_map.WriteRecords<VertexRef>(job.source.vertex_block_begin(index), block.refs);
     AppendGroups(block.positions, positions);
+    if (exact != nullptr) AppendGroups(block.exact, *exact);
     for (uint32_t subtree : block.positions.subtrees()) {
       next_local[subtree] += static_cast<uint32_t>(block.positions.Items(subtree).size());
     }

@@ -56,7 +56,7 @@ class MeshSource {
   /// vertex_count(). A block holds at most 65,536 vertices.
   virtual uint64_t vertex_block_begin(size_t block) const = 0;
   /// Replaces *xyz by the block's positions, three doubles a vertex. kInput where a value does not
-  /// parse. NaN and infinity are passed on.
+  /// parse. NaN and infinity are passed on, bit for bit (folprom/float_bits.h).
   virtual Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const = 0;
 
   virtual size_t triangle_block_count() const = 0;

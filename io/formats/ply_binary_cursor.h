@@ -49,8 +49,8 @@ class PlyBinaryCursor {
 
   double Real(ScalarType type) {
     const uint8_t* bytes = Take(ScalarSize(type));
-    return WithScalarType(
-        type, [bytes]<class T>(T) { return static_cast<double>(Load<T, kBigEndian>(bytes)); });
+    return WithScalarType(type,
+                          [bytes]<class T>(T) { return ToDouble(Load<T, kBigEndian>(bytes)); });
   }
 
   /// Three items of a list of integers.

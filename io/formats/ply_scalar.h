@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "folprom/float_bits.h"
 #include "io/formats/mesh_source.h"
 
 namespace folprom::io {
@@ -43,6 +44,16 @@ T Load(const uint8_t* bytes) {
     uint8_t swapped[sizeof(T)];
     for (size_t i = 0; i < sizeof(T); ++i) swapped[i] = bytes[sizeof(T) - 1 - i];
     return std::bit_cast<T>(swapped);
+  }
+}
+
+/// The same value; bit for bit also where a float is a NaN.
+template <class T>
+double ToDouble(T value) {
+  if constexpr (std::same_as<T, float>) {
+    return WidenFloat(value);
+  } else {
+    return static_cast<double>(value);
   }
 }
 

@@ -48,8 +48,7 @@ void ReadFixedVertices(const uint8_t* records, const PlyElementPlan& plan, uint6
     for (size_t p = 0; p < plan.coordinates[axis]; ++p) value += ScalarSize(properties[p].type);
     WithScalarType(properties[plan.coordinates[axis]].type, [&]<class T>(T) {
       for (uint64_t i = 0; i < count; ++i) {
-        xyz[3 * i + axis] =
-            static_cast<double>(Load<T, kBigEndian>(value + i * plan.smallest_record));
+        xyz[3 * i + axis] = ToDouble(Load<T, kBigEndian>(value + i * plan.smallest_record));
       }
     });
   }

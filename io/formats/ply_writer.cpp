@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "folprom/float_bits.h"
 #include "io/files/atomic_file.h"
 
 namespace folprom::io {
@@ -83,7 +84,7 @@ class PlyWriterOnDisk final : public PlyWriter {
         if (is_double_) {
           StoreLittleEndian(value, vertices_.Extend(sizeof value));
         } else {
-          StoreLittleEndian(static_cast<float>(value), vertices_.Extend(sizeof(float)));
+          StoreLittleEndian(NarrowToFloatBits(value), vertices_.Extend(sizeof(float)));
         }
       }
     });

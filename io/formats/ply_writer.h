@@ -24,6 +24,7 @@ class PlyWriter {
                                                    uint64_t face_count, ScalarType coordinate_type,
                                                    bool force);
   virtual ~PlyWriter() = default;
+  /// As float: rounded, or the very bits where WidenFloat made the value.
   virtual Result<void> AppendVertices(std::span<const double> xyz) = 0;
   virtual Result<void> AppendFaces(std::span<const Triangle> faces) = 0;
   /// Checks that as many came as were announced (kInternal), syncs and renames into place.

@@ -67,6 +67,29 @@ TEST_F(Config, LatticeOffsetsAskForTheQuadricHierarchy) {
   EXPECT_NE(refused.err.find("hierarchy = \"quadric\""), std::string::npos) << refused.err;
 }
 
+TEST_F(Config, ExactAsksForLatticeOffsets) {
+  ExpectError({"encode", "--print-config", "--exact", "--config", kConfigs + "paper.toml"}, 2,
+              "offsets = \"lattice\"");
+  const Outcome refused =
+      Effective({"--config", Write("[encode]\nexact = true\n[codec]\noffsets = \"cartesian\"\n")});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("exact needs offsets = \"lattice\""), std::string::npos)
+      << refused.err;
+}
+
+TEST_F(Config, BitsOnTheCommandLineWinOverExactInTheFile) {
+  const std::string config =
+      Write("[encode]\nexact = true\n[codec]\noffsets = \"lattice\"\nhierarchy = \"quadric\"\n");
+  const auto exact = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments = {"--config", config};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    return *toml::parse(Effective(arguments).out)["encode"]["exact"].value<bool>();
+  };
+  EXPECT_TRUE(exact({}));
+  EXPECT_FALSE(exact({"--bits", "14"}));
+  EXPECT_FALSE(exact({"--tolerance", "0.5"}));
+}
+
 TEST_F(Config, EveryKeyStandsInEveryFileAndNoOther) {
   const auto known = KeysOf(toml::parse(Effective({}).out));
   EXPECT_GT(known.size(), 20u);

@@ -31,7 +31,7 @@ TEST_F(Report, EncodeAsJson) {
   EXPECT_DOUBLE_EQ(report.at("bits_per_vertex"), report.at("bytes").get<double>() * 8 / 3000);
   const auto& bits = report.at("bits");
   ExpectKeys(bits, {"split", "root", "theta", "rho", "z", "refinement", "connected", "pivots",
-                    "sides", "exceptions", "seams"});
+                    "sides", "exceptions", "seams", "rests"});
   double sum = 0;
   for (const auto& kind : bits) sum += kind.get<double>();
   EXPECT_GT(sum, 0.9 * 8 * report.at("bytes").get<double>());
@@ -60,6 +60,22 @@ TEST_F(Report, InfoAsJson) {
   }
   EXPECT_EQ(layers.back().at("end_byte"), info.at("bytes"));
   EXPECT_EQ(layers.back().at("vertices"), 3000);
+}
+
+TEST_F(Report, OfAnExactFile) {
+  const Outcome encoded = Run({"encode", Path("s.ply"), "-o", Path("e.folp"), "--exact", "--config",
+                               FOLPROM_SOURCE_DIR "/configs/quadric.toml"});
+  ASSERT_EQ(encoded.exit_code, 0) << encoded.err;
+  const auto info = Run({"info", Path("e.folp"), "--json"}).json();
+  ExpectKeys(info.at("exact"), {"type", "radix", "exponent", "bits", "has_rests"});
+  EXPECT_EQ(info.at("tolerance"), 0);
+  EXPECT_TRUE(Run({"info", Path("s.folp"), "--json"}).json().at("exact").is_null());
+  EXPECT_NE(Run({"info", Path("e.folp")}).out.find("exact: every bit of a float"),
+            std::string::npos);
+  const Outcome verified = Run({"verify", Path("e.folp"), "--against", Path("s.ply"), "--json"});
+  ASSERT_EQ(verified.exit_code, 0) << verified.err;
+  EXPECT_EQ(verified.json().at("lossless"), true);
+  EXPECT_EQ(verified.json().at("max_position_error"), 0);
 }
 
 TEST_F(Report, InfoAsTableHasARowForEachLayer) {

@@ -46,6 +46,8 @@ TEST_F(Usage, RejectsMissingArguments) {
 TEST_F(Usage, RejectsBoundsThatExcludeEachOther) {
   ExpectError({"encode", "a.ply", "-o", "a.folp", "--bits", "12", "--tolerance", "1"}, 2,
               "--tolerance");
+  ExpectError({"encode", "a.ply", "-o", "a.folp", "--bits", "12", "--exact"}, 2, "--exact");
+  ExpectError({"encode", "a.ply", "-o", "a.folp", "--tolerance", "1", "--exact"}, 2, "--exact");
   const std::vector<std::vector<std::string>> bounds = {
       {"--bpv", "2"}, {"--max-error", "1"}, {"--max-vertices", "10"}, {"--layers", "3"}};
   for (const auto& one : bounds) {

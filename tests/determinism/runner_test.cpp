@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "parallel/runner.h"
+#include "tests/support/bit_mesh.h"
 #include "tests/support/codec.h"
 #include "tests/support/files.h"
 #include "tests/support/ply.h"
@@ -82,6 +83,14 @@ TEST(RunnerTest, NeverChangesTheBytesOfManySmallSubtrees) {
   EncodeOptions options;
   options.codec.subtree_vertices = 50;
   ExpectSameBytes(folder.File("scan.ply"), options, 80, 5);
+}
+
+TEST(RunnerTest, NeverChangesTheBytesOfAnExactFile) {
+  for (CoordinateType type : {CoordinateType::kFloat, CoordinateType::kDouble}) {
+    TemporaryFolder folder;
+    WritePly(folder.File("scan.ply"), BumpySphere(kSanitized ? 3000 : 8000, true, 3), type);
+    ExpectSameBytes(folder.File("scan.ply"), ExactOptions(500), 6, 3);
+  }
 }
 
 TEST(RunnerTest, NeverChangesTheBytesOfDragon) {

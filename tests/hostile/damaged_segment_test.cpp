@@ -53,6 +53,13 @@ Bytes FileOfKind(size_t kind) {
       options.codec.adaptive_quantisation = false;
       options.codec.quantisation_levels = 4096;
       break;
+    case 5:
+      options = QuadricOptions(80);
+      break;
+    case 6:
+      options = QuadricOptions(150);
+      options.exact = true;  // of noise: every coordinate leaves a rest
+      break;
     default:
       options.codec.fan_cuts = options.codec.pivot_order = options.codec.nearer_child = false;
       options.codec.quantisation_levels = 2;
@@ -61,7 +68,7 @@ Bytes FileOfKind(size_t kind) {
   }
   return Encoded(RoughTorus(25, 12), options);
 }
-constexpr size_t kKinds = 6;
+constexpr size_t kKinds = 8;
 
 const std::vector<Parts>& AllKinds() {
   static const std::vector<Parts> kinds = [] {
@@ -164,10 +171,11 @@ TEST(DamagedSegment, OfRandomBytesUnderALargeTableEndsWell) {
   const std::string faults = RunGuarded(1000, kCpuSeconds, 2 * kAllowedBytes, [&](size_t i) {
     std::mt19937_64 random(i + 40000);
     Parts parts = kinds[i % kKinds];
-    // Nothing but the coded bits says that these vertices do not exist.
+    // Nothing but the coded bits says that these vertices do not exist. Fewer than the layers have
+    // would not get past the table.
     parts.table.vertices = 0;
     for (auto& subtree : parts.table.subtrees) {
-      subtree.vertices = static_cast<uint32_t>(random() >> (32 + random() % 20));
+      subtree.vertices = static_cast<uint32_t>(400 + (random() >> (33 + random() % 20)));
       parts.table.vertices += subtree.vertices;
     }
     for (auto& segment : parts.segments) segment = RandomBytes(random, random() % 1000);

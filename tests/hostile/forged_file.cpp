@@ -39,6 +39,7 @@ class CopyingTruth final : public SubtreeTruth {
   bool SecondTouchesBorder() const override { return honest_.SecondTouchesBorder(); }
   void EndBinarySplit(uint32_t second_set) override { honest_.EndBinarySplit(second_set); }
   Int3 VertexPosition(uint32_t set) const override { return honest_.VertexPosition(set); }
+  CoordinateRest Rest(uint32_t, size_t) const override { return {}; }
   SplitOracle* oracle() override { return honest_.oracle(); }
   FaceCensus CountFaces(const Complex& complex) const override {
     FaceCensus census = honest_.CountFaces(complex);
@@ -60,7 +61,7 @@ Bytes Forged(const std::vector<Int3>& positions, const std::vector<Face>& faces,
                                       parameters.settings.rounds_per_layer, 3, 2);
   SetTree tree = BuildLloydTree(positions, MeasureSurface(positions, faces, cross_faces, 0), kSide,
                                 parameters.settings);
-  TreeTruth honest(chunk, 0, tree);
+  TreeTruth honest(chunk, 0, tree, parameters);
   CopyingTruth truth(honest, copies);
   const auto count = static_cast<uint32_t>(positions.size());
   SubtreeCoder coder(parameters, {count, {0, 0, 0}, parameters.extent, false});

@@ -138,6 +138,13 @@ EncodeOptions SmallOptions(uint32_t subtree_vertices) {
   return options;
 }
 
+EncodeOptions QuadricOptions(uint32_t subtree_vertices) {
+  EncodeOptions options = SmallOptions(subtree_vertices);
+  options.codec.hierarchy = Hierarchy::kQuadric;
+  options.codec.offsets = Offsets::kLattice;
+  return options;
+}
+
 Bytes Encoded(const TestMesh& mesh, const EncodeOptions& options) {
   TemporaryFolder folder;
   WriteFile(folder.File("scan.ply"), PlyBytes(mesh));

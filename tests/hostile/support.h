@@ -53,6 +53,8 @@ std::string PlyBytes(const TestMesh& mesh, PlyForm form = PlyForm::kLittleEndian
 
 /// 9 bits; subtrees of `subtree_vertices` vertices.
 EncodeOptions SmallOptions(uint32_t subtree_vertices = 100);
+/// The same with exact integer offsets.
+EncodeOptions QuadricOptions(uint32_t subtree_vertices = 100);
 /// The mesh as a .folp file, encoded serially.
 Bytes Encoded(const TestMesh& mesh, const EncodeOptions& options);
 /// RoughTorus of 302 vertices in four subtrees or more; encoded once per process.

@@ -31,7 +31,7 @@ struct Subtree {
       : chunk(job.scan().Load(number)),
         whole(EncodeSubtree(chunk, job.scan().summary(number), number, file.parameters())),
         tree(BuildSetTree(chunk, number, file.parameters())),
-        truth(chunk, number, tree),
+        truth(chunk, number, tree, file.parameters()),
         coder(file.parameters(), Shape(job.scan().summary(number))),
         reader(file.container(), file.parameters(), number, has_border) {}
 

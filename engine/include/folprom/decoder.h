@@ -12,10 +12,13 @@
 
 namespace folprom {
 
-/// A level of detail. Positions in model units.
+/// A level of detail. Positions in model units. Those of the last layer of an exact file
+/// (`encode --exact`) are the scan's own, bit for bit; where the scan had floats, NarrowToFloatBits
+/// of folprom/float_bits.h gives back theirs, also of a NaN.
 struct DecodedMesh {
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<uint64_t, 3>> faces;
+  bool is_float = false;  ///< the scan had floats, or integers that fit into one
 };
 
 /// Decodes a .folp file held in memory. Not thread-safe; move-only.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct BitCounts {
   double refinement = 0;
   double connected = 0, pivots = 0, sides = 0;  ///< connectivity inside subtrees
   double exceptions = 0, seams = 0;
+  double rests = 0;  ///< what the lattice of an exact encoding leaves over
 };
 
 /// Outcome of EncodeFile. Warnings are sentences for the user (polygons triangulated, properties
@@ -69,6 +71,15 @@ struct LayerInfo {
   double bits_per_vertex = 0;  ///< rate up to and with this layer, whole file prefix
 };
 
+/// The lattice of a file that gives back its scan bit for bit.
+struct ExactInfo {
+  bool is_float = false;   ///< binary32, else binary64
+  uint32_t radix = 10;     ///< 10 or 2
+  int32_t exponent = 0;    ///< the step is radix^-exponent
+  double bits = 0;         ///< of a lattice coordinate along the longest side
+  bool has_rests = false;  ///< not every coordinate lies on the lattice
+};
+
 struct FileInfo {
   uint32_t format_version = 0;
   uint64_t vertices = 0;
@@ -78,6 +89,7 @@ struct FileInfo {
   uint64_t layers_present = 0;
   uint64_t subtrees = 0;
   double tolerance = 0;
+  std::optional<ExactInfo> exact;
   std::array<double, 3> box_lo{}, box_hi{};
   CodecSettings codec;
   std::vector<LayerInfo> layers;
@@ -100,7 +112,8 @@ struct VerifyReport {
 };
 
 /// Decodes everything and compares it with the digest of the file and, when `original` is not
-/// empty, vertex by vertex and face by face with that scan. A cut file is not lossless.
+/// empty, vertex by vertex and face by face with that scan: of an exact file bit by bit. A cut file
+/// is not lossless.
 Result<VerifyReport> VerifyFile(const std::string& input, const std::string& original,
                                 const DecodeOptions& options, parallel::Runner& runner,
                                 parallel::Progress& progress);

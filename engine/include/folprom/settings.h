@@ -83,10 +83,16 @@ struct EncodeOptions {
   uint32_t bits = 12;
   /// Largest error per axis in model units; 0: from `bits`.
   double tolerance = 0;
+  /// Positions come back bit for bit: floats and doubles, also -0.0, infinities and NaN. `bits` and
+  /// `tolerance` are not used. Needs Offsets::kLattice.
+  bool exact = false;
   uint64_t memory_bytes = uint64_t{2} << 30;  ///< resident size to stay below; never alters bytes
   std::string temporary_folder;               ///< empty: $TMPDIR or /tmp
   bool overwrite = false;                     ///< may replace the output
 };
+
+/// CheckSettings of the codec, and whether the options go together.
+Result<void> CheckOptions(const EncodeOptions& options);
 
 /// What `decode` is asked for. At most one of the bounds is set; none: everything.
 struct DecodeOptions {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -131,6 +132,26 @@ TEST(PlyText, PassesOnInfinityNanAndValuesTooLargeOrSmall) {
   EXPECT_EQ(xyz[2], -std::numeric_limits<double>::infinity());
   EXPECT_EQ(MeshOf(AsciiPoint("float", "1e60 -1e60 1e-300")).value().xyz,
             (std::vector<double>{HUGE_VAL, -HUGE_VAL, 0}));
+}
+
+TEST(PlyCoordinates, KeepTheBitsOfANan) {
+  // Quiet and signalling, positive and negative, and what they are widened to.
+  const uint32_t floats[] = {0x7fc00000, 0x7f812345, 0xffbfffff};
+  const uint64_t widened[] = {0x7ff8000000000000, 0x7ff02468a0000000, 0xfff7ffffe0000000};
+  for (const char* order : {"little", "big"}) {
+    std::string bytes = std::string("ply\nformat binary_") + order +
+                        "_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                        "property float z\nend_header\n";
+    for (uint32_t value : floats) {
+      for (int byte = 0; byte < 4; ++byte) {
+        const int shift = *order == 'l' ? 8 * byte : 24 - 8 * byte;
+        bytes.push_back(static_cast<char>(value >> shift & 0xff));
+      }
+    }
+    const std::vector<double> xyz = MeshOf(bytes).value().xyz;
+    ASSERT_EQ(xyz.size(), 3u);
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(std::bit_cast<uint64_t>(xyz[i]), widened[i]) << order;
+  }
 }
 
 TEST(PlyText, TakesSignsTabsBlankLinesAndNoLastLineEnd) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstring>
 #include <filesystem>
 
 #include "support.h"
@@ -30,6 +32,24 @@ TEST(PlyWriter, WritesTheBytesThatReadersExpect) {
   EXPECT_EQ(bytes.substr(0, expected_header.size()), expected_header);
   EXPECT_EQ(bytes.substr(bytes.size() - 13 - 4, 4), std::string("\0\0\0\xc0", 4));
   EXPECT_EQ(bytes.substr(bytes.size() - 13), std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13));
+}
+
+TEST(PlyWriter, KeepsTheBitsOfANan) {
+  for (const ScalarType type : {ScalarType::kFloat32, ScalarType::kFloat64}) {
+    const TemporaryFolder folder;
+    std::vector<double> xyz;
+    for (uint64_t bits : std::initializer_list<uint64_t>{0x7ff8000000000000, 0x7ff02468a0000000,
+                                                         0xfff7ffffe0000000}) {
+      xyz.push_back(std::bit_cast<double>(bits));
+    }
+    auto writer = PlyWriter::Create(folder.File("out.ply"), 1, 0, type, false).value();
+    writer->AppendVertices(xyz).value();
+    writer->Commit().value();
+    const auto source = MeshSource::Open(folder.File("out.ply")).value();
+    const std::vector<double> read = AllBlocks(*source).value().xyz;
+    ASSERT_EQ(read.size(), 3u);
+    EXPECT_EQ(std::memcmp(read.data(), xyz.data(), 24), 0);
+  }
 }
 
 TEST(PlyWriter, BringsBackLargeMeshesWrittenInAnyInterleaving) {

@@ -26,6 +26,7 @@ class FlatTruth final : public SubtreeTruth {
   Int3 VertexPosition(uint32_t set) const override {
     return {set % 2 == 0 ? 0 : 1000, set / 2 == 0 ? 0 : 1000, 500};
   }
+  CoordinateRest Rest(uint32_t, size_t) const override { return {}; }
   SplitOracle* oracle() override { return nullptr; }
   FaceCensus CountFaces(const Complex&) const override { return {}; }
 

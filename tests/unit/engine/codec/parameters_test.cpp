@@ -57,6 +57,42 @@ TEST(CodecParameters, CutOrLengthenedAreCorrupt) {
   ExpectCorrupt(longer);
 }
 
+CodecParameters SomeExact() {
+  CodecParameters parameters = Some();
+  parameters.settings.hierarchy = Hierarchy::kQuadric;
+  parameters.settings.offsets = Offsets::kLattice;
+  parameters.exact = ExactLattice{{2, -7, false, true}, {}};
+  return parameters;
+}
+
+TEST(CodecParameters, OfAnExactLatticeComeBack) {
+  const CodecParameters read = ReadParameters(WriteParameters(SomeExact()), kExtent);
+  ASSERT_TRUE(read.exact.has_value());
+  EXPECT_EQ(read.exact->step, SomeExact().exact->step);
+  EXPECT_TRUE(read.has_rests());
+  EXPECT_FALSE(ReadParameters(WriteParameters(Some()), kExtent).exact.has_value());
+}
+
+TEST(CodecParameters, OfNoExactLatticeAreCorrupt) {
+  const std::vector<uint8_t> whole = WriteParameters(SomeExact());
+  for (size_t cut = 1; cut < 6; ++cut) {
+    ExpectCorrupt({whole.begin(), whole.end() - static_cast<ptrdiff_t>(cut)});
+  }
+  for (const ExactStep& step : {ExactStep{3, 0, false, true}, ExactStep{10, -1, false, true},
+                                ExactStep{10, 23, false, true}, ExactStep{2, -127, false, true},
+                                ExactStep{2, 1075, false, true}}) {
+    CodecParameters parameters = SomeExact();
+    parameters.exact->step = step;
+    ExpectCorrupt(WriteParameters(parameters));
+  }
+  std::vector<uint8_t> flag(whole.begin(), whole.end() - 1);
+  flag.push_back(2);
+  ExpectCorrupt(flag);
+  CodecParameters cylindrical = SomeExact();
+  cylindrical.settings.offsets = Offsets::kCylindrical;
+  ExpectCorrupt(WriteParameters(cylindrical));
+}
+
 TEST(CodecParameters, OutOfRangeAreCorrupt) {
   CodecParameters nan = Some();
   nan.settings.metric_a = std::numeric_limits<double>::quiet_NaN();

@@ -72,7 +72,7 @@ TEST(MeasureBounds, NamesTheFirstVertexThatIsNotFinite) {
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.error().kind, ErrorKind::kInput);
       EXPECT_EQ(failure.error().message,
-                "memory.ply: vertex 1234: coordinate y is not a finite number");
+                "memory.ply: vertex 1234: coordinate y is not a finite number (--exact keeps it)");
     }
   }
 }

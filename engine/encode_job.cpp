@@ -306,11 +306,11 @@ io::FileTable EncodeJob::MakeTable() {
       table.segment_bytes.push_back(outcome.inner_bytes[layer]);
       table.segment_bytes.push_back(outcome.seam_bytes[layer]);
     }
-    // Up to the next float, and half a lattice unit per axis for the rounding of the original, or a
+    // Half a lattice unit per axis for the rounding of the original, or a
     // whole one where rests follow in the last layer.
     double rounding = parameters_.exact ? 2 : 1;
     double bound = outcomes_.empty() ? 0 : (distance + rounding) * resolution_.lattice.unit;
-    record.error_bound = std::nextafter(static_cast<float>(bound), INFINITY);
+    record.error_bound = io::NextErrorBound(bound);
     if (parameters_.exact && layer == kept_layers_.back()) record.error_bound = 0;
     table.layers.push_back(record);
   }

@@ -116,13 +116,15 @@ ConnectivitySettings CodecParameters::connectivity() const {
 
 namespace {
 
-/// Visit(field) for each setting in the order of the table of keys; one list for both directions.
-template <class Settings, class Visit>
-void ForEachField(Settings& settings, Visit visit) {
+/// Visit(member) for each setting in the order of the table of keys; one list for both directions.
+template <class Visit>
+void ForEachMember(Visit visit) {
   for (const SettingKey& key : SettingKeys()) {
-    std::visit([&](auto member) { visit(settings.*member); }, key.member);
+    std::visit([&](auto member) { visit(member); }, key.member);
   }
 }
+
+size_t BitmapBytes() { return (SettingKeys().size() + 7) / 8; }
 
 static_assert(std::endian::native == std::endian::little, "fields are stored little-endian");
 
@@ -134,11 +136,23 @@ void Append(std::vector<uint8_t>* bytes, const void* data, size_t size) {
 }  // namespace
 
 std::vector<uint8_t> WriteParameters(const CodecParameters& parameters) {
-  std::vector<uint8_t> bytes;
-  ForEachField(parameters.settings,
-               [&](const auto& field) { Append(&bytes, &field, sizeof field); });
-  uint32_t counts[2] = {parameters.schedule.split_layers(), parameters.schedule.refine_layers()};
-  Append(&bytes, counts, sizeof counts);
+  const CodecSettings defaults;
+  std::vector<uint8_t> bytes(BitmapBytes(), 0);
+  size_t key = 0;
+  ForEachMember([&](auto member) {
+    const auto& value = parameters.settings.*member;
+    if (value != defaults.*member) {
+      bytes[key / 8] = static_cast<uint8_t>(bytes[key / 8] | 1u << key % 8);
+      if constexpr (!std::is_same_v<std::decay_t<decltype(value)>, bool>) {
+        Append(&bytes, &value, sizeof value);
+      }
+    }
+    ++key;
+  });
+  for (uint32_t count : {parameters.schedule.split_layers(), parameters.schedule.refine_layers()}) {
+    const auto stored = static_cast<uint16_t>(std::min(count, 0xffffu));
+    Append(&bytes, &stored, sizeof stored);
+  }
   if (parameters.exact) {
     const ExactStep& step = parameters.exact->step;
     const auto radix = static_cast<uint8_t>(step.radix);
@@ -184,19 +198,28 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
     std::memcpy(target, bytes.data() + position, size);
     position += size;
   };
-  ForEachField(parameters.settings, [&](auto& field) {
-    using Field = std::remove_reference_t<decltype(field)>;
-    if constexpr (std::is_same_v<Field, bool>) {
-      uint8_t value = 0;
-      take(&value, 1);
-      if (value > 1)
-        throw Failure(ErrorKind::kCorrupt, "settings of the coder: a switch is not 0 or 1");
-      field = value == 1;
-    } else {
-      take(&field, sizeof field);
+  std::vector<uint8_t> differs(BitmapBytes());
+  take(differs.data(), differs.size());
+  size_t key = 0;
+  ForEachMember([&](auto member) {
+    auto& value = parameters.settings.*member;
+    if (differs[key / 8] >> key % 8 & 1) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(value)>, bool>) {
+        value = !value;
+      } else {
+        const auto usual = value;
+        take(&value, sizeof value);
+        if (value == usual) {
+          throw Failure(ErrorKind::kCorrupt, "settings of the coder: a usual value is spelt out");
+        }
+      }
     }
+    ++key;
   });
-  uint32_t counts[2];
+  if (key % 8 != 0 && differs.back() >> key % 8 != 0) {
+    throw Failure(ErrorKind::kCorrupt, "settings of the coder: a key that does not exist");
+  }
+  uint16_t counts[2];
   take(counts, sizeof counts);
   if (position != bytes.size()) parameters.exact = ReadExact(parameters.settings, take);
   if (position != bytes.size()) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/geometry/local_frame.h"
+#include "engine/hierarchy/merge_tree.h"
 #include "engine/hierarchy/quadric.h"
 
 namespace folprom {
@@ -41,7 +42,7 @@ class Contractor {
  public:
   Contractor(std::span<const Int3> positions, std::span<const Face> faces,
              std::span<const CrossFace> cross_faces, uint32_t subtree, double length_weight)
-      : own_(static_cast<uint32_t>(positions.size())), length_weight_(length_weight) {
+      : own_(static_cast<uint32_t>(positions.size())), length_weight_(length_weight), tree_(own_) {
     for (const Int3& p : positions) AddPoint(p);
     for (const Face& face : faces) faces_.push_back(face);
     for (const CrossFace& cross : cross_faces) {
@@ -62,7 +63,6 @@ class Contractor {
     LinkStars();
     AddFacePlanes();
     AddBoundaryPlanes();
-    for (uint32_t v = 0; v < own_; ++v) top_node_.push_back(v);
   }
 
   SetTree Build(std::span<const Int3> positions) {
@@ -75,15 +75,10 @@ class Contractor {
       Take(entry.vertex, entry.key);
     }
     JoinRemaining();
-    return Flatten(positions);
+    return tree_.Flatten(positions);
   }
 
  private:
-  /// A merge of two nodes of the tree under construction; leaves are the vertices.
-  struct Merge {
-    uint32_t kept, removed;  ///< nodes
-    double distortion;
-  };
   struct Entry {
     float key;
     uint32_t vertex;
@@ -332,21 +327,8 @@ class Contractor {
     grown.insert(grown.end(), star.begin(), star.end());
     star = {};
     forced_[target] = 0;
-    Join(target, v, std::sqrt(squared), own.weight);
+    tree_.Join(target, v, std::sqrt(squared), own.weight);
     if (grown.size() <= 4 * kMostCandidates) Enqueue(target);
-  }
-
-  /// area: of the surface that the error applies to.
-  void Join(uint32_t kept, uint32_t removed, double error, double area) {
-    // A set is due no later than the sets inside it.
-    double distortion =
-        std::max({area * error, DistortionOf(top_node_[kept]), DistortionOf(top_node_[removed])});
-    merges_.push_back({top_node_[kept], top_node_[removed], distortion});
-    top_node_[kept] = own_ + static_cast<uint32_t>(merges_.size()) - 1;
-  }
-
-  double DistortionOf(uint32_t node) const {
-    return node < own_ ? 0 : merges_[node - own_].distortion;
   }
 
   /// Vertices that no edge joins any more: neighbours on the Morton curve, pair by pair.
@@ -376,44 +358,12 @@ class Contractor {
           if (quadrics_[removed].weight > quadrics_[kept].weight) std::swap(kept, removed);
           double area = quadrics_[removed].weight;
           quadrics_[kept].Add(quadrics_[removed]);
-          Join(kept, removed, std::sqrt(SquaredLength(Minus(kept, removed))), area);
+          tree_.Join(kept, removed, std::sqrt(SquaredLength(Minus(kept, removed))), area);
         }
         next.push_back(kept);
       }
       live = std::move(next);
     }
-    root_ = live.empty() ? 0 : top_node_[live[0]];
-  }
-
-  /// The merges as a SetTree: each set contiguous, children consecutive.
-  SetTree Flatten(std::span<const Int3> positions) const {
-    std::vector<uint32_t> size(own_ + merges_.size(), 1), kept_vertex(own_ + merges_.size());
-    std::vector<SetTree::Node> nodes;
-    std::vector<uint32_t> order(own_);
-    for (uint32_t v = 0; v < own_; ++v) kept_vertex[v] = v;
-    for (uint32_t i = 0; i < merges_.size(); ++i) {
-      size[own_ + i] = size[merges_[i].kept] + size[merges_[i].removed];
-      kept_vertex[own_ + i] = kept_vertex[merges_[i].kept];
-    }
-    nodes.reserve(own_ + merges_.size());
-    std::vector<uint32_t> source{root_};  // node of the merges, per node of the tree
-    nodes.push_back({0, own_, 0, 0, positions[kept_vertex[root_]], 0});
-    for (uint32_t i = 0; i < nodes.size(); ++i) {
-      if (source[i] < own_) {
-        order[nodes[i].begin] = source[i];
-        continue;
-      }
-      const Merge& merge = merges_[source[i] - own_];
-      uint32_t middle = nodes[i].begin + size[merge.kept], end = nodes[i].end;
-      nodes[i].first_child = static_cast<uint32_t>(nodes.size());
-      nodes[i].child_count = 2;
-      nodes[i].distortion = merge.distortion;
-      nodes.push_back({nodes[i].begin, middle, 0, 0, positions[kept_vertex[merge.kept]], 0});
-      nodes.push_back({middle, end, 0, 0, positions[kept_vertex[merge.removed]], 0});
-      source.push_back(merge.kept);
-      source.push_back(merge.removed);
-    }
-    return {std::move(nodes), std::move(order)};
   }
 
   uint32_t own_;
@@ -430,9 +380,7 @@ class Contractor {
   std::vector<Candidate> candidates_;
   std::vector<uint32_t> stamp_of_;
   uint32_t stamp_ = 0;
-  std::vector<Merge> merges_;
-  std::vector<uint32_t> top_node_;  ///< per live vertex
-  uint32_t root_ = 0;
+  MergeTree tree_;
 };
 
 }  // namespace

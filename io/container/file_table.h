@@ -1,6 +1,7 @@
 // What stands before the coded bits of a .folp file: settings, counts, layers, sizes, checksums.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,11 +34,16 @@ struct MeshDigest {
 
 /// One layer over all subtrees. Layers 0 .. k together give one LOD.
 struct LayerRecord {
-  float error_bound = 0;  ///< model units; no original vertex lies further from its representative
+  /// Model units; no original vertex lies further from its representative. The lower half of the
+  /// float is 0.
+  float error_bound = 0;
   uint64_t vertices = 0;  ///< of the LOD after this layer; never fewer than after the one before
   uint64_t faces = 0;     ///< of the LOD after this layer
   bool operator==(const LayerRecord&) const = default;
 };
+
+/// The least error bound that a table can hold and that is above `bound` (>= 0).
+float NextErrorBound(double bound);
 
 struct SubtreeRecord {
   uint32_t vertices = 0;            ///< of the original mesh
@@ -70,6 +76,12 @@ struct FileTable {
 
   size_t SegmentIndex(size_t layer, size_t subtree, SegmentPart part) const {
     return (layer * subtrees.size() + subtree) * 2 + static_cast<size_t>(part);
+  }
+  /// Has any subtree a lower neighbour; if not, there is no place for seam segments.
+  bool HasSeams() const {
+    return std::any_of(subtrees.begin(), subtrees.end(), [](const SubtreeRecord& subtree) {
+      return !subtree.lower_neighbours.empty();
+    });
   }
   bool operator==(const FileTable&) const = default;
 };

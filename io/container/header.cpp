@@ -54,10 +54,10 @@ std::span<const uint8_t> TableBytes(std::span<const uint8_t> file_bytes, std::st
   }
   if (present >= kMagic.size() + kVersionBytes) CheckVersion(file_bytes, file);
   if (present < kTableBegin) {
-    FailCut(file, present, "at least " + std::to_string(kTableBegin + kChecksumBytes));
+    FailCut(file, present, "at least " + std::to_string(kTableBegin + kHeaderChecksumBytes));
   }
   const size_t length = LoadLittleEndian<uint32_t>(file_bytes.data() + kTableBegin - kLengthBytes);
-  const uint64_t needed = uint64_t{kTableBegin} + length + kChecksumBytes;
+  const uint64_t needed = uint64_t{kTableBegin} + length + kHeaderChecksumBytes;
   if (present < needed) FailCut(file, present, std::to_string(needed));
   const auto guarded = file_bytes.first(kTableBegin + length);
   if (XxHash64(guarded) != LoadLittleEndian<uint64_t>(file_bytes.data() + guarded.size())) {

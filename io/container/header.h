@@ -16,6 +16,7 @@ namespace folprom::io {
 inline constexpr std::array<uint8_t, 8> kMagic = {0xf7, 'F', 'O', 'L', 'P', '\r', '\n', 0x1a};
 inline constexpr size_t kVersionBytes = 2;
 inline constexpr size_t kLengthBytes = 4;
+inline constexpr size_t kHeaderChecksumBytes = 8;
 inline constexpr size_t kTableBegin = kMagic.size() + kVersionBytes + kLengthBytes;
 
 /// All bytes before the first segment. Failure kInternal: the table has a fault; kLimit: it takes

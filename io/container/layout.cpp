@@ -9,7 +9,7 @@ FileLayout LayoutOf(const FileTable& table, uint64_t begin) {
   uint64_t at = begin, group_begin = begin;
   const auto close_group = [&] {
     layout.groups.push_back({group_begin, at});
-    at += kChecksumBytes;
+    at += kGroupChecksumBytes;
     group_begin = at;
   };
   const size_t segments_per_layer = table.subtrees.size() * 2;
@@ -22,7 +22,7 @@ FileLayout LayoutOf(const FileTable& table, uint64_t begin) {
     if (at > group_begin) close_group();
     layout.layer_end.push_back(at);
   }
-  layout.checksum_bytes = layout.groups.size() * kChecksumBytes;
+  layout.checksum_bytes = layout.groups.size() * kGroupChecksumBytes;
   layout.file_bytes = at;
   return layout;
 }

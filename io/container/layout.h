@@ -10,7 +10,7 @@ namespace folprom::io {
 
 /// A group of segments is closed as soon as it has this many bytes.
 inline constexpr uint64_t kGroupBytes = 512;
-inline constexpr uint64_t kChecksumBytes = 8;
+inline constexpr uint64_t kGroupChecksumBytes = 4;
 
 /// Consecutive bytes of segments of one layer; their checksum stands at `end`. Never empty.
 struct ChecksumGroup {

@@ -35,7 +35,7 @@ void ContainerReader::Load(std::span<const uint8_t> bytes, std::string name) {
   name_ = std::move(name);
   const auto coded = TableBytes(bytes, name_);
   table_ = DecodeTable(coded, name_, kTableBegin);
-  table_bytes_ = kTableBegin + coded.size() + kChecksumBytes;
+  table_bytes_ = kTableBegin + coded.size() + kHeaderChecksumBytes;
   layout_ = LayoutOf(table_, table_bytes_);
   if (bytes.size() > file_bytes()) {
     throw Failure(ErrorKind::kCorrupt, name_ + ": " + std::to_string(bytes.size() - file_bytes()) +
@@ -59,8 +59,8 @@ size_t ContainerReader::GroupOf(uint64_t position) const {
 bool ContainerReader::Intact(size_t group) const {
   if (verified_[group].load(std::memory_order_relaxed)) return true;
   const auto [begin, end] = layout_.groups[group];
-  if (XxHash64(bytes_.subspan(begin, end - begin)) !=
-      LoadLittleEndian<uint64_t>(bytes_.data() + end)) {
+  if (static_cast<uint32_t>(XxHash64(bytes_.subspan(begin, end - begin))) !=
+      LoadLittleEndian<uint32_t>(bytes_.data() + end)) {
     return false;
   }
   verified_[group].store(true, std::memory_order_relaxed);
@@ -78,7 +78,7 @@ Result<std::span<const uint8_t>> ContainerReader::Segment(size_t layer, size_t s
   if (size == 0) return std::span<const uint8_t>();
   const size_t group = GroupOf(begin);
   const auto [group_begin, group_end] = layout_.groups[group];
-  if (group_end + kChecksumBytes > bytes_.size()) {
+  if (group_end + kGroupChecksumBytes > bytes_.size()) {
     return Error{ErrorKind::kCorrupt,
                  name_ + PlaceOf(layer, subtree, part) + "the file is cut at byte " +
                      std::to_string(bytes_.size()) + " of " + std::to_string(file_bytes())};

@@ -79,12 +79,12 @@ uint64_t ReadCode(int k, BitReader* bits) {
 
 }  // namespace
 
-void WriteSizes(std::span<const uint64_t> sizes, size_t layers, size_t subtrees, ByteWriter* out) {
+void WriteSizes(std::span<const uint64_t> sizes, const SizeGrid& grid, ByteWriter* out) {
   BitWriter bits(out);
   std::vector<uint64_t> codes;
-  for (size_t row = 0; row < 2 * layers; ++row) {
+  for (size_t row = 0; row < grid.parts() * grid.layers; ++row) {
     codes.clear();
-    ForRow(sizes, row / 2, row % 2, subtrees,
+    ForRow(sizes, row / grid.parts(), row % grid.parts(), grid.subtrees,
            [&](uint64_t prediction, uint64_t size) { codes.push_back(ZigZag(size - prediction)); });
     const int k = BestOrder(codes);
     bits.Bits(static_cast<uint64_t>(k), kRowParameterBits);
@@ -93,17 +93,18 @@ void WriteSizes(std::span<const uint64_t> sizes, size_t layers, size_t subtrees,
   bits.Finish();
 }
 
-std::vector<uint64_t> ReadSizes(size_t layers, size_t subtrees, ByteReader* in) {
-  std::vector<uint64_t> sizes(layers * subtrees * 2);
+std::vector<uint64_t> ReadSizes(const SizeGrid& grid, ByteReader* in) {
+  std::vector<uint64_t> sizes(grid.layers * grid.subtrees * 2);
   BitReader bits(in);
-  for (size_t row = 0; row < 2 * layers; ++row) {
+  for (size_t row = 0; row < grid.parts() * grid.layers; ++row) {
     const int k = static_cast<int>(bits.Bits(kRowParameterBits));
-    ForRow(sizes, row / 2, row % 2, subtrees, [&](uint64_t prediction, uint64_t& size) {
-      const uint64_t code = ReadCode(k, &bits);
-      if (code > kLargestCode) in->Fail("segment size beyond 32 bits");
-      size = prediction + UnZigZag(code);
-      if (size > kMaxSegmentBytes) in->Fail("segment size negative or beyond 32 bits");
-    });
+    ForRow(sizes, row / grid.parts(), row % grid.parts(), grid.subtrees,
+           [&](uint64_t prediction, uint64_t& size) {
+             const uint64_t code = ReadCode(k, &bits);
+             if (code > kLargestCode) in->Fail("segment size beyond 32 bits");
+             size = prediction + UnZigZag(code);
+             if (size > kMaxSegmentBytes) in->Fail("segment size negative or beyond 32 bits");
+           });
   }
   bits.Finish();
   return sizes;

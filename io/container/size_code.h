@@ -12,16 +12,21 @@ namespace folprom::io {
 
 inline constexpr int kRowParameterBits = 5;
 
-/// Bits that layers x subtrees x 2 sizes take at least: one each and a parameter a row. Both counts
-/// below 2^32 and 2^12, so that nothing overflows.
-inline uint64_t LeastSizeBits(uint64_t layers, uint64_t subtrees) {
-  return 2 * layers * (subtrees + kRowParameterBits);
-}
+/// What the sizes of a table are sizes of. Layers below 2^12, subtrees below 2^32.
+struct SizeGrid {
+  uint64_t layers = 0;
+  uint64_t subtrees = 0;
+  bool seams = false;  ///< has any subtree a lower neighbour; if not, seam segments have no bytes
+
+  uint64_t parts() const { return seams ? 2 : 1; }
+  /// What the sizes take at least: a bit each and a parameter a row.
+  uint64_t LeastBits() const { return parts() * layers * (subtrees + kRowParameterBits); }
+};
 
 /// Appends sizes[(layer * subtrees + subtree) * 2 + part], each below 2^32, filled to a whole byte.
-void WriteSizes(std::span<const uint64_t> sizes, size_t layers, size_t subtrees, ByteWriter* out);
+void WriteSizes(std::span<const uint64_t> sizes, const SizeGrid& grid, ByteWriter* out);
 
-/// Reads them back. The caller has checked LeastSizeBits against the bytes left. Failure kCorrupt.
-std::vector<uint64_t> ReadSizes(size_t layers, size_t subtrees, ByteReader* in);
+/// Reads them back. The caller has checked LeastBits against the bytes left. Failure kCorrupt.
+std::vector<uint64_t> ReadSizes(const SizeGrid& grid, ByteReader* in);
 
 }  // namespace folprom::io

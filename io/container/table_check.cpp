@@ -1,4 +1,5 @@
 // The rules between the fields of a table, the same for what is written and what is read.
+#include <bit>
 #include <cmath>
 
 #include "io/container/table_code.h"
@@ -33,6 +34,9 @@ std::string LayersFault(const FileTable& table) {
     const std::string place = "layer " + std::to_string(i) + ": ";
     if (!std::isfinite(layer.error_bound) || layer.error_bound < 0) {
       return place + "error bound not 0 or above";
+    }
+    if ((std::bit_cast<uint32_t>(layer.error_bound) & 0xffff) != 0) {
+      return place + "error bound of more bits than the table has";
     }
     if (layer.vertices < before) return place + "fewer vertices than in the layer before";
     if (layer.vertices > table.vertices) return place + "more vertices than the mesh has";
@@ -77,6 +81,11 @@ std::string SegmentsFault(const FileTable& table) {
   if (table.segment_bytes.size() != table.layers.size() * table.subtrees.size() * 2) {
     return "number of segment sizes is not layers x subtrees x 2";
   }
+  if (!table.HasSeams()) {
+    for (size_t i = 1; i < table.segment_bytes.size(); i += 2) {
+      if (table.segment_bytes[i] > 0) return "a seam segment, but no subtree has a lower neighbour";
+    }
+  }
   uint64_t sum = 0;
   for (const uint64_t bytes : table.segment_bytes) {
     if (bytes > kMaxSegmentBytes) return "a segment of 2^32 bytes or more";
@@ -87,6 +96,11 @@ std::string SegmentsFault(const FileTable& table) {
 }
 
 }  // namespace
+
+float NextErrorBound(double bound) {
+  const float above = std::nextafter(static_cast<float>(bound), INFINITY);
+  return std::bit_cast<float>((std::bit_cast<uint32_t>(above) + 0xffff) & 0xffff0000);
+}
 
 std::string TableFault(const FileTable& table) {
   if (table.vertices > kMaxCount || table.faces > kMaxCount) {

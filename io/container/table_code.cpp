@@ -1,5 +1,7 @@
 #include "io/container/table_code.h"
 
+#include <bit>
+
 #include "folprom/result.h"
 #include "io/container/byte_code.h"
 #include "io/container/size_code.h"
@@ -8,14 +10,14 @@ namespace folprom::io {
 namespace {
 
 constexpr uint64_t kMaxCoordinate = (uint64_t{1} << 30) - 1;
-// Fewest bytes of a record: float, two varints; varint, box of six, neighbour count.
-constexpr uint64_t kLeastLayerBytes = 6;
+// Fewest bytes of a record: error bound, two varints; varint, box of six, neighbour count.
+constexpr uint64_t kLeastLayerBytes = 4;
 constexpr uint64_t kLeastSubtreeBytes = 8;
 
 void WriteLayers(const FileTable& table, ByteWriter* out) {
   LayerRecord before;
   for (const LayerRecord& layer : table.layers) {
-    out->F32(layer.error_bound);
+    out->U16(static_cast<uint16_t>(std::bit_cast<uint32_t>(layer.error_bound) >> 16));
     const uint64_t more_vertices = layer.vertices - before.vertices;
     out->Varint(more_vertices);
     // A closed surface has twice as many faces as vertices.
@@ -27,7 +29,7 @@ void WriteLayers(const FileTable& table, ByteWriter* out) {
 void ReadLayers(ByteReader* in, FileTable* table) {
   LayerRecord before;
   for (LayerRecord& layer : table->layers) {
-    layer.error_bound = in->F32();
+    layer.error_bound = std::bit_cast<float>(uint32_t{in->U16()} << 16);
     const uint64_t more_vertices =
         in->VarintUpTo(table->vertices - before.vertices, "growth of a layer's vertices");
     layer.vertices = before.vertices + more_vertices;
@@ -73,12 +75,16 @@ SubtreeRecord ReadSubtree(size_t number, const FileTable& table, ByteReader* in)
   return subtree;
 }
 
+SizeGrid GridOf(const FileTable& table) {
+  return {table.layers.size(), table.subtrees.size(), table.HasSeams()};
+}
+
 /// Layers, subtrees and sizes, none of which may claim more than the bytes left can hold.
 void ReadCounts(ByteReader* in, FileTable* table) {
   const uint64_t layers = in->VarintUpTo(kMaxLayers, "number of layers");
   const uint64_t subtrees = in->VarintUpTo(UINT32_MAX, "number of subtrees");
   const uint64_t records = layers * kLeastLayerBytes + subtrees * kLeastSubtreeBytes;
-  const uint64_t size_bytes = (LeastSizeBits(layers, subtrees) + 7) / 8;
+  const uint64_t size_bytes = (SizeGrid{layers, subtrees, false}.LeastBits() + 7) / 8;
   if (records + size_bytes > in->left()) {
     in->Fail(std::to_string(layers) + " layers of " + std::to_string(subtrees) +
              " subtrees need at least " + std::to_string(records + size_bytes) +
@@ -110,7 +116,7 @@ std::vector<uint8_t> EncodeTable(const FileTable& table) {
   out.Varint(table.subtrees.size());
   WriteLayers(table, &out);
   for (const SubtreeRecord& subtree : table.subtrees) WriteSubtree(subtree, &out);
-  WriteSizes(table.segment_bytes, table.layers.size(), table.subtrees.size(), &out);
+  WriteSizes(table.segment_bytes, GridOf(table), &out);
   return std::move(out).Take();
 }
 
@@ -137,9 +143,10 @@ FileTable DecodeTable(std::span<const uint8_t> bytes, std::string_view file, uin
     table.subtrees[i] = ReadSubtree(i, table, &in);
   }
   // The records may have taken more than their least, so the sizes are checked again.
-  const uint64_t size_bits = LeastSizeBits(table.layers.size(), table.subtrees.size());
-  if (size_bits > uint64_t{8} * in.left()) in.Fail("fewer bytes left than the segment sizes need");
-  table.segment_bytes = ReadSizes(table.layers.size(), table.subtrees.size(), &in);
+  const SizeGrid grid = GridOf(table);
+  if (grid.LeastBits() > uint64_t{8} * in.left())
+    in.Fail("fewer bytes left than the segment sizes need");
+  table.segment_bytes = ReadSizes(grid, &in);
   if (in.left() > 0) in.Fail(std::to_string(in.left()) + " bytes after the segment sizes");
   const std::string fault = TableFault(table);
   if (!fault.empty()) throw Failure(ErrorKind::kCorrupt, std::string(file) + ": table: " + fault);

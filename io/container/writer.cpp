@@ -59,7 +59,7 @@ class GroupHash {
   /// The checksum as it stands in the file; begins the next group.
   std::vector<uint8_t> Close() {
     std::vector<uint8_t> bytes;
-    AppendLittleEndian(uint64_t{XXH3_64bits_digest(&state_)}, &bytes);
+    AppendLittleEndian(static_cast<uint32_t>(XXH3_64bits_digest(&state_)), &bytes);
     XXH3_64bits_reset(&state_);
     return bytes;
   }
@@ -96,7 +96,7 @@ uint64_t WriteTo(const std::vector<uint8_t>& header, const FileLayout& layout,
         at += bytes.size();
         if (bytes.empty() || at < group->end) continue;
         out->Append(hash.Close());
-        at += kChecksumBytes;
+        at += kGroupChecksumBytes;
         ++group;
       }
     }

@@ -196,6 +196,9 @@ Parts TakeApart(std::span<const uint8_t> file) {
 
 Bytes PutTogether(Parts parts) {
   parts.table.segment_bytes.clear();
+  if (!parts.table.HasSeams()) {
+    for (size_t i = 1; i < parts.segments.size(); i += 2) parts.segments[i].clear();
+  }
   for (const Bytes& segment : parts.segments) parts.table.segment_bytes.push_back(segment.size());
   return io::WriteContainerToMemory(parts.table, [&](size_t layer, size_t subtree,
                                                      io::SegmentPart part) {

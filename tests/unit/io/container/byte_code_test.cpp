@@ -46,12 +46,10 @@ TEST(ByteCode, KeepsEveryBitOfAFloat) {
   for (const double value : {0.1, -0.0, 1e-310, 1e308, std::numeric_limits<double>::infinity()}) {
     ByteWriter out;
     out.F64(value);
-    out.F32(static_cast<float>(0.1 * std::copysign(1.0, value)));
     const auto bytes = std::move(out).Take();
-    ASSERT_EQ(bytes.size(), 12u);
+    ASSERT_EQ(bytes.size(), 8u);
     ByteReader in(bytes, "file", 0);
     EXPECT_EQ(std::bit_cast<uint64_t>(in.F64()), std::bit_cast<uint64_t>(value));
-    EXPECT_EQ(in.F32(), static_cast<float>(0.1 * std::copysign(1.0, value)));
   }
 }
 

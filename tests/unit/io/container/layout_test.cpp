@@ -23,27 +23,27 @@ Ends GroupsOf(const FileLayout& layout) {
 
 TEST(Layout, JoinsSegmentsUntilAGroupHas512Bytes) {
   const FileLayout layout = LayoutOf(TableOf({511, 1, 512, 0}), 100);
-  EXPECT_EQ(GroupsOf(layout), (Ends{{100, 612}, {620, 1132}}));
-  EXPECT_EQ(layout.segment_begin, (std::vector<uint64_t>{100, 611, 620, 1140}));
-  EXPECT_EQ(layout.file_bytes, 1140u);
-  EXPECT_EQ(layout.checksum_bytes, 16u);
+  EXPECT_EQ(GroupsOf(layout), (Ends{{100, 612}, {616, 1128}}));
+  EXPECT_EQ(layout.segment_begin, (std::vector<uint64_t>{100, 611, 616, 1132}));
+  EXPECT_EQ(layout.file_bytes, 1132u);
+  EXPECT_EQ(layout.checksum_bytes, 8u);
 }
 
 TEST(Layout, TheRestOfALayerIsItsOwnGroup) {
   const FileLayout layout = LayoutOf(TableOf({600, 5, 0, 6, 7, 0, 0, 0}), 0);
-  EXPECT_EQ(GroupsOf(layout), (Ends{{0, 600}, {608, 619}, {627, 634}}));
-  EXPECT_EQ(layout.layer_end, (std::vector<uint64_t>{627, 642}));
+  EXPECT_EQ(GroupsOf(layout), (Ends{{0, 600}, {604, 615}, {619, 626}}));
+  EXPECT_EQ(layout.layer_end, (std::vector<uint64_t>{619, 630}));
 }
 
 TEST(Layout, ALayerWithoutBytesHasNoChecksum) {
   const FileLayout layout = LayoutOf(TableOf({0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}), 50);
   EXPECT_EQ(GroupsOf(layout), (Ends{{50, 51}}));
-  EXPECT_EQ(layout.layer_end, (std::vector<uint64_t>{50, 59, 59}));
+  EXPECT_EQ(layout.layer_end, (std::vector<uint64_t>{50, 55, 55}));
 }
 
 TEST(Layout, AGroupNeverCrossesALayer) {
   const FileLayout layout = LayoutOf(TableOf({1, 1, 1, 1, 1, 1, 1, 1}), 0);
-  EXPECT_EQ(GroupsOf(layout), (Ends{{0, 4}, {12, 16}}));
+  EXPECT_EQ(GroupsOf(layout), (Ends{{0, 4}, {8, 12}}));
 }
 
 TEST(Layout, WithoutLayersTheFileEndsAfterTheHeader) {

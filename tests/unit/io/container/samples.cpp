@@ -56,12 +56,16 @@ FileTable RandomTable(uint64_t seed, bool few_bytes) {
   uint64_t vertices = 0;
   for (LayerRecord& layer : table.layers) {
     vertices = Draw(&random, vertices, table.vertices);
-    layer = {static_cast<float>(random()) * 1e-12f, vertices, DrawAnyWidth(&random, 48)};
+    layer = {NextErrorBound(static_cast<double>(random()) * 1e-12), vertices,
+             DrawAnyWidth(&random, 48)};
   }
   table.segment_bytes.resize(table.layers.size() * table.subtrees.size() * 2);
   for (uint64_t& bytes : table.segment_bytes) {
     if (Draw(&random, 0, 3) == 0) continue;
     bytes = few_bytes ? Draw(&random, 0, 1500) >> Draw(&random, 0, 8) : DrawAnyWidth(&random, 32);
+  }
+  if (!table.HasSeams()) {
+    for (size_t i = 1; i < table.segment_bytes.size(); i += 2) table.segment_bytes[i] = 0;
   }
   return table;
 }
@@ -94,7 +98,7 @@ FileTable ScanLikeTable() {
   for (int i = 0; i < 30; ++i) {
     const double part = std::pow(2.0, -0.15 * (29 - i));
     LayerRecord layer;
-    layer.error_bound = static_cast<float>(0.02 * std::pow(2.0, -0.25 * i));
+    layer.error_bound = NextErrorBound(0.02 * std::pow(2.0, -0.25 * i));
     layer.vertices = static_cast<uint64_t>(part * static_cast<double>(table.vertices));
     layer.faces = 2 * layer.vertices + Draw(&random, 0, 200);
     table.layers.push_back(layer);

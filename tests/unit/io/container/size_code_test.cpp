@@ -11,13 +11,13 @@ namespace {
 
 std::vector<uint8_t> Coded(std::span<const uint64_t> sizes, size_t layers, size_t subtrees) {
   ByteWriter out;
-  WriteSizes(sizes, layers, subtrees, &out);
+  WriteSizes(sizes, {layers, subtrees, true}, &out);
   return std::move(out).Take();
 }
 
 std::vector<uint64_t> Decoded(std::span<const uint8_t> bytes, size_t layers, size_t subtrees) {
   ByteReader in(bytes, "file", 0);
-  auto sizes = ReadSizes(layers, subtrees, &in);
+  auto sizes = ReadSizes({layers, subtrees, true}, &in);
   EXPECT_EQ(in.left(), 0u);
   return sizes;
 }
@@ -41,7 +41,18 @@ TEST(SizeCode, BringsBackTheLargestJumps) {
 
 TEST(SizeCode, NeverTakesFewerBitsThanTheBoundThatGuardsMemory) {
   const std::vector<uint64_t> empty(2 * 50 * 1000);
-  EXPECT_EQ(Coded(empty, 50, 1000).size(), (LeastSizeBits(50, 1000) + 7) / 8);
+  EXPECT_EQ(Coded(empty, 50, 1000).size(), (SizeGrid{50, 1000, true}.LeastBits() + 7) / 8);
+}
+
+TEST(SizeCode, LeavesOutTheSeamsWhereThereAreNone) {
+  const std::vector<uint64_t> sizes = {700, 0, 30, 0, 5, 0, 1000, 0};
+  ByteWriter out, with;
+  WriteSizes(sizes, {2, 2, false}, &out);
+  WriteSizes(sizes, {2, 2, true}, &with);
+  const auto bytes = std::move(out).Take();
+  EXPECT_LT(bytes.size(), std::move(with).Take().size());
+  ByteReader in(bytes, "file", 0);
+  EXPECT_EQ(ReadSizes({2, 2, false}, &in), sizes);
 }
 
 TEST(SizeCode, RejectsSizesBeyondTheLimit) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <functional>
 #include <limits>
 #include <random>
@@ -58,7 +59,7 @@ TEST(TableCode, KeepsEveryBitOfFloats) {
   FileTable table = ExampleTable();
   table.origin = {-0.0, 1e-310, -1.7976931348623157e308};
   table.unit = 5e-324;
-  table.layers[1].error_bound = 1e-45f;
+  table.layers[1].error_bound = std::bit_cast<float>(uint32_t{0x00010000});
   const FileTable back = DecodeTable(EncodeTable(table), "file", 0);
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(std::bit_cast<uint64_t>(back.origin[i]), std::bit_cast<uint64_t>(table.origin[i]));
@@ -110,8 +111,8 @@ TEST(TableCode, RejectsCountsThatTheBytesLeftCannotHold) {
   ExpectCorrupt(with_counts(1, uint64_t{1} << 32, 100), "number of subtrees");
   ExpectCorrupt(with_counts(0, UINT32_MAX, 100), "bytes of table, 100 are left");
   ExpectCorrupt(with_counts(4096, UINT32_MAX, 100), "bytes of table, 100 are left");
-  // Room for the records, not for 4,096 x 2,000 x 2 sizes.
-  ExpectCorrupt(with_counts(4096, 2000, 4096 * 6 + 2000 * 8), "bytes of table");
+  // Room for the records, not for 4,096 x 2,000 sizes.
+  ExpectCorrupt(with_counts(4096, 2000, 4096 * 4 + 2000 * 8), "bytes of table");
 }
 
 TEST(TableCode, RejectsSettingsLongerThanTheTable) {
@@ -120,6 +121,28 @@ TEST(TableCode, RejectsSettingsLongerThanTheTable) {
   ASSERT_EQ(bytes[settings], 2);
   bytes[settings] = 0x7f;
   ExpectCorrupt(bytes, "length of the coder's settings is 127");
+}
+
+TEST(TableCode, ErrorBoundsAreRoundedUp) {
+  for (double bound : {0.0, 1e-40, 0.1, 1.0, 3.14159, 1e30}) {
+    const double next = static_cast<double>(NextErrorBound(bound));
+    EXPECT_GT(next, bound);
+    EXPECT_LE(next, bound * 1.008 + 1e-38);
+    FileTable table = ExampleTable();
+    table.layers[0].error_bound = NextErrorBound(bound);
+    EXPECT_EQ(TableFault(table), "");
+    EXPECT_EQ(DecodeTable(EncodeTable(table), "f", 0), table);
+  }
+  FileTable table = ExampleTable();
+  table.layers[0].error_bound = 0.1F;
+  EXPECT_THROW(EncodeTable(table), Failure);
+}
+
+TEST(TableCode, RejectsASeamWhereNoSubtreeHasALowerNeighbour) {
+  FileTable table = ExampleTable();
+  EXPECT_EQ(TableFault(table), "");
+  table.subtrees[1].lower_neighbours.clear();
+  EXPECT_NE(TableFault(table).find("seam segment"), std::string::npos);
 }
 
 TEST(TableCode, RejectsNeighboursThatAreNotLower) {
@@ -175,10 +198,10 @@ TEST(TableCode, RejectsLayersThatContradictTheMesh) {
     ByteWriter out = BeforeCounts(0);
     out.Varint(1);
     out.Varint(0);
-    out.F32(bound);
+    out.U16(static_cast<uint16_t>(std::bit_cast<uint32_t>(bound) >> 16));
     out.Varint(vertices);
     out.Varint(faces_code);
-    out.Bytes(std::vector<uint8_t>(2));
+    out.Bytes(std::vector<uint8_t>(1));
     return std::move(out).Take();
   };
   EXPECT_EQ(DecodeTable(with_layer(1, 0, 4), "f", 0).layers[0].faces, 2u);

@@ -74,6 +74,7 @@ void SeamCoder::ReplayEvent(Coder& coder, uint32_t participant, uint32_t index, 
     SplitMeters costs;
     uint32_t added =
         split_coder_.Code(coder, complex_, positions_, vertex, known, oracle, &costs, meter);
+    coder.SetMeter(meter);  // costs ends with this block
     *meter += costs.Sum();
     CheckSize(complex_, mesh_faces_);
     positions_.push_back(event.second_position);

@@ -365,7 +365,7 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
     last_split_.push_back(static_cast<uint32_t>(last_split_.size()));
   }
   const bool may_stay_fan =
-      settings_.fan_cuts && known.all == kUndecided && (known.code_connected || known.connected);
+      settings_.fan_cuts && (known.code_connected || known.connected);
   if (may_stay_fan && CodeFan(coder, complex, positions, known, oracle, meters)) {
     last_split_[vertex] = complex.vertex_count();
     star_.second = complex.AddVertex();
@@ -392,13 +392,8 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
     star_.connected = connected_.Code(coder, {degree * 4 + faces, bucket * 4 + faces}, 0, truth);
   }
   SortPivotCandidates();
-  if (known.all == kUndecided) {
-    CodePivots(coder, oracle, meters);
-    CodeSides(coder, oracle, meters);
-  } else {
-    pivots_ = 0;
-    for (auto& neighbour : star_.neighbours) neighbour.side = known.all;
-  }
+  CodePivots(coder, oracle, meters);
+  CodeSides(coder, oracle, meters);
   coder.SetMeter(exception_meter);
   CodeFaces(coder, oracle);
   ApplySides(complex);

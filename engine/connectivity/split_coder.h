@@ -54,7 +54,6 @@ class SplitCoder {
     /// false: `connected` is known to both sides, and the edge belongs to another complex.
     bool code_connected = true;
     bool connected = false;
-    Side all = kUndecided;  ///< kFirst or kSecond: every neighbour goes to that child
   };
 
   /// Codes and applies the split of `vertex` into itself and a new vertex, which is returned.

@@ -19,7 +19,7 @@ class Rates : public testing::Test {
     return MeasureRates(scan_, options, rates, 20'000, *runner_, progress_).value();
   }
   void SetUp() override {
-    support::WritePly(scan_, support::BumpySphere(6000, false, 1), support::CoordinateType::kFloat);
+    support::WritePly(scan_, support::BumpySphere(4000, false, 1), support::CoordinateType::kFloat);
   }
 
   support::TemporaryFolder folder_;

@@ -245,8 +245,8 @@ void EncodeJob::EncodeSeams() {
 }
 
 void EncodeJob::DropEmptyLayers() {
-  // A layer in which no subtree codes anything can go where the schedule does not count on it: the
-  // last split layers but one, and the first refinements.
+  // A layer in which nothing changes in any subtree can go where the schedule does not count on it:
+  // the last split layers but one, and the first refinements.
   uint32_t split = parameters_.schedule.split_layers(), all = parameters_.schedule.layers();
   auto active = [&](uint32_t layer) {
     return std::any_of(outcomes_.begin(), outcomes_.end(),

@@ -64,6 +64,10 @@ constexpr SettingKey kKeys[] = {
     {"pivot_order", &S::pivot_order,
      "pivot flags in order of regularity (section 3); false: by vertex id", ""},
     {"nearer_child", &S::nearer_child, "side flags relative to the nearer child (section 3)", ""},
+    {"trained", &S::trained,
+     "models start from what other meshes taught them, with offsets = \"lattice\"; false: from "
+     "nothing",
+     ""},
     {"layers_per_octave", &S::layers_per_octave, "layers per halving of the vertex spacing",
      "layers", 1, 8},
     {"rounds_per_layer", &S::rounds_per_layer,

@@ -12,11 +12,9 @@ namespace folprom {
 /// A binary split of a border set. Border sets are numbered by their first appearance: the root is
 /// 0, the second child of a split in which both children are border sets gets the next number.
 struct BorderEvent {
-  uint32_t border = 0;             ///< number of the split set
-  uint32_t first_vertex = 0;       ///< vertex of the subtree that carries the number afterwards
-  uint32_t second_vertex = kNone;  ///< vertex that carries the new number; kNone when only one
-                                   ///< child is a border set
-  Int3 first_position;             ///< of the two, after the split
+  uint32_t border = 0;  ///< number of the split set
+  uint32_t both = 0;    ///< 1: both children are border sets, and the second gets a new number
+  Int3 first_position;  ///< of the two, after the split
   Int3 second_position;
   uint32_t connected = 0;  ///< are the two children connected
 };

@@ -116,12 +116,12 @@ BorderSeamTruth::Replay BorderSeamTruth::PlanReplay(const BorderRecord& border, 
   Replay replay;
   replay.second_size.assign(border.events.size(), 0);
   uint32_t sets = 1;
-  for (const BorderEvent& event : border.events) sets += event.second_vertex != kNone ? 1 : 0;
+  for (const BorderEvent& event : border.events) sets += event.both;
   std::vector<uint32_t> size(sets, 1);
   uint32_t last = sets;
   for (size_t e = border.events.size(); e-- > 0;) {
     const BorderEvent& event = border.events[e];
-    if (event.second_vertex == kNone) continue;
+    if (event.both == 0) continue;
     --last;
     replay.second_size[e] = size[last];
     size[event.border] += size[last];
@@ -131,7 +131,7 @@ BorderSeamTruth::Replay BorderSeamTruth::PlanReplay(const BorderRecord& border, 
   replay.end.assign(1, sets);
   for (size_t e = 0; e < border.events.size(); ++e) {
     const BorderEvent& event = border.events[e];
-    if (event.second_vertex == kNone) continue;
+    if (event.both == 0) continue;
     uint32_t end = replay.end[event.border];
     replay.end[event.border] = end - replay.second_size[e];
     replay.begin.push_back(end - replay.second_size[e]);

@@ -83,7 +83,8 @@ uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary, const CodecParameters
 
 EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& summary,
                              uint32_t subtree, const CodecParameters& parameters,
-                             const CostMeters& meters) {
+                             const CostMeters& meters,
+                             const std::function<void(SubtreeCoder&)>& after_layer) {
   const SetTree tree = BuildSetTree(chunk, subtree, parameters);
   TreeTruth truth(chunk, subtree, tree, parameters);
   SubtreeShape shape;
@@ -96,13 +97,16 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
   EncodedSubtree result;
   result.meters = meters;
   for (uint32_t layer = 0; layer < parameters.schedule.layers(); ++layer) {
-    uint64_t before = bits.decisions();
+    const uint64_t before = bits.decisions();
+    const std::vector<Int3> positions = coder.positions();
     coder.CodeLayer(bits, &truth, &result.meters);
-    result.active.push_back(bits.decisions() > before);
+    // A position may follow from what is known without any decision.
+    result.active.push_back(bits.decisions() > before || coder.positions() != positions);
     result.segments.push_back(bits.TakeSegment());
     result.distance.push_back(truth.LargestDistance(coder.positions()));
     result.vertices.push_back(static_cast<uint32_t>(coder.positions().size()));
     result.faces.push_back(coder.face_count());
+    if (after_layer) after_layer(coder);
   }
   result.final_vertices = truth.FinalVertices();
   CheckTolerance(chunk, coder.positions(), result.final_vertices, parameters.settings.offsets);

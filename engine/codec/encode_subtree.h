@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/codec/border_record.h"
@@ -29,7 +30,7 @@ struct EncodedSubtree {
   BorderVertices border_vertices;
   io::MeshDigest digest;  ///< vertices and inner faces
   CostMeters meters;
-  std::vector<bool> active;  ///< per layer: was anything coded
+  std::vector<bool> active;  ///< per layer: did anything change
   /// Index in the decoded subtree of each vertex of the chunk.
   std::vector<uint32_t> final_vertices;
 };
@@ -42,12 +43,12 @@ SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree,
 uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary, const CodecParameters& parameters);
 
 /// Throws Failure kInternal when a decoded position would miss the tolerance. `meters`: where to
-/// start counting, and into which tallies.
+/// start counting, and into which tallies. after_layer, if any, is called after each.
 EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& summary,
                              uint32_t subtree, const CodecParameters& parameters,
-                             const CostMeters& meters = {});
+                             const CostMeters& meters = {},
+                             const std::function<void(SubtreeCoder&)>& after_layer = {});
 
-/// Encodes the seam of an owner from complete records.
 struct EncodedSeam {
   std::vector<std::vector<uint8_t>> segments;
   std::vector<uint64_t> faces;  ///< per layer
@@ -61,6 +62,7 @@ struct BorderFile {
   BorderVertices vertices;
 };
 
+/// Encodes the seam of an owner from complete records.
 EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees,
                        const std::vector<BorderFile>& borders,
                        std::span<const CrossFace> cross_faces, const CodecParameters& parameters);

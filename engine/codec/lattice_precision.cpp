@@ -19,7 +19,7 @@ constexpr double kMeanMiss = 0.25;
 /// Distance from the faces, per cell, that rounding the coordinates of their corners makes: of the
 /// axis nearest to the corner's normal, and of the other two.
 struct Leverage {
-  double tangential = 0, normal = 0, area = 0;
+  double tangential = 0, normal = 0;
 };
 
 Leverage MeasureLeverage(const Complex& complex, const SubtreeTruth& truth) {
@@ -37,7 +37,6 @@ Leverage MeasureLeverage(const Complex& complex, const SubtreeTruth& truth) {
   Leverage sum;
   for (uint32_t f = 0; f < faces; ++f) {
     const Vector3& n = face_normal[f];
-    sum.area = sum.area + std::sqrt(Dot(n, n)) / 2;
     for (uint32_t v : complex.face(f)) {
       size_t dominant = 0;
       for (size_t i = 1; i < 3; ++i) {

@@ -21,10 +21,6 @@ void NamingPlace(const char* part, size_t subtree, size_t layer, Work work) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// What the table says of an exact lattice; origin and unit must be those of its step.
 void CompleteExact(const io::FileTable& table, ExactLattice* exact) {
   ExactStep& step = exact->step;
@@ -41,6 +37,15 @@ void CompleteExact(const io::FileTable& table, ExactLattice* exact) {
   if (!agrees) {
     throw Failure(ErrorKind::kCorrupt, "the lattice of the table is not that of the coder");
   }
+}
+
+SubtreeShape ShapeOf(const io::FileTable& table, size_t subtree, bool has_border) {
+  const io::SubtreeRecord& record = table.subtrees[subtree];
+  return {record.vertices,
+          {record.box_lo[0], record.box_lo[1], record.box_lo[2]},
+          {record.box_hi[0], record.box_hi[1], record.box_hi[2]},
+          has_border,
+          table.faces};
 }
 
 }  // namespace
@@ -69,22 +74,11 @@ std::vector<bool> SubtreesWithBorder(const io::FileTable& table) {
   return border;
 }
 
-SubtreeShape ShapeOf(const io::FileTable& table, size_t subtree) {
-  const io::SubtreeRecord& record = table.subtrees[subtree];
-  return {record.vertices,
-          {record.box_lo[0], record.box_lo[1], record.box_lo[2]},
-          {record.box_hi[0], record.box_hi[1], record.box_hi[2]},
-          false,
-          table.faces};
-}
-
 SubtreeReader::SubtreeReader(const io::ContainerReader& container,
                              const CodecParameters& parameters, size_t subtree, bool has_border)
-    : container_(container), subtree_(subtree), coder_(parameters, [&] {
-        SubtreeShape shape = ShapeOf(container.table(), subtree);
-        shape.has_border = has_border;
-        return shape;
-      }()) {}
+    : container_(container),
+      subtree_(subtree),
+      coder_(parameters, ShapeOf(container.table(), subtree, has_border)) {}
 
 void SubtreeReader::DecodeLayer() {
   size_t layer = coder_.layers_done();

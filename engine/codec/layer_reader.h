@@ -15,7 +15,6 @@ namespace folprom {
 
 /// Settings and schedule of the file. Throws Failure kCorrupt where they contradict its table.
 CodecParameters ParametersOf(const io::FileTable& table);
-SubtreeShape ShapeOf(const io::FileTable& table, size_t subtree);
 /// The lattice of the file; `parameters` are those of its table.
 Lattice LatticeOf(const io::FileTable& table, const CodecParameters& parameters);
 /// Does the subtree share a face with any other.

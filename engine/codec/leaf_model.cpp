@@ -26,7 +26,7 @@ uint32_t Ratio(double a, double b) {
   return static_cast<uint32_t>(std::clamp(value, 2.0, kRatios - 1.0));
 }
 
-/// 0: no neighbours, 1: none is a leaf, 2 .. 5: about so many fourths are.
+/// 0: no neighbours, 1: none or hardly one is a leaf, 2 .. 5: about a fourth less than so many are.
 uint32_t ShareOfLeaves(const LeafSigns& signs) {
   const uint32_t count = signs.leaves + signs.others;
   if (count == 0) return 0;

@@ -24,6 +24,7 @@ class LeafModel {
   LeafModel();
   template <class Coder>
   bool Code(Coder& coder, const LeafSigns& signs, bool leaf);
+  void Visit(LearnedStateVisitor& visitor) { model_.Visit(visitor); }
 
  private:
   MixedModel<6> model_;

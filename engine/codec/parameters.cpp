@@ -101,6 +101,12 @@ uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layer
   return static_cast<uint32_t>(octaves * layers_per_octave) + 1;
 }
 
+const InitialStatistics* CodecParameters::start() const {
+  if (statistics != nullptr) return statistics;
+  const bool starts = settings.trained && settings.offsets == Offsets::kLattice;
+  return starts ? &InitialStatistics::Trained() : nullptr;
+}
+
 OffsetSettings CodecParameters::offsets() const {
   return {children(),
           settings.quantisation_levels,

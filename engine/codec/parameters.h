@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/connectivity/split_coder.h"
+#include "engine/entropy/initial_statistics.h"
 #include "engine/geometry/offset_coder.h"
 #include "engine/mesh/exact_lattice.h"
 #include "engine/mesh/types.h"
@@ -61,12 +62,16 @@ struct CodecParameters {
   Int3 extent;
   LayerSchedule schedule;
   std::optional<ExactLattice> exact;  ///< positions are coded bit for bit
+  /// Other statistics than InitialStatistics::Trained, while those are made.
+  const InitialStatistics* statistics = nullptr;
 
   /// Most children of a split.
   uint32_t children() const {
     return settings.hierarchy == Hierarchy::kQuadric ? 2 : settings.children;
   }
   bool has_rests() const { return exact && exact->step.has_rests; }
+  /// Where models start; null: at nothing.
+  const InitialStatistics* start() const;
   OffsetSettings offsets() const;
   ConnectivitySettings connectivity() const;
 };

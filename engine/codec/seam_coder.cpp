@@ -60,7 +60,7 @@ void SeamCoder::ReplayEvent(Coder& coder, uint32_t participant, uint32_t index, 
                             uint64_t* meter) {
   const BorderEvent& event = participants_[participant].border->events[index];
   uint32_t vertex = vertex_of_border_[participant][event.border];
-  if (event.second_vertex != kNone) {
+  if (event.both != 0) {
     SplitCoder::Known known;
     known.first = event.first_position;
     known.second = event.second_position;

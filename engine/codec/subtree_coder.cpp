@@ -63,14 +63,31 @@ CostMeters& CostMeters::operator+=(const CostMeters& other) {
 SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape& shape)
     : parameters_(parameters),
       shape_(shape),
-      lattice_coder_(shape.box_lo, shape.box_hi),
       split_coder_(parameters.connectivity()),
-      offset_coder_(parameters.offsets()),
       finer_same_({2}),
       due_({kDueBuckets * kDueBuckets, kDueBuckets}),
       border_both_({16}),
       border_side_({1}),
-      exceptions_(shape.mesh_faces) {}
+      exceptions_(shape.mesh_faces) {
+  if (parameters.settings.offsets == Offsets::kLattice) {
+    lattice_coder_.emplace(shape.box_lo, shape.box_hi);
+  } else {
+    offset_coder_.emplace(parameters.offsets());
+  }
+  if (const InitialStatistics* start = parameters.start()) {
+    StatisticsLoader loader(*start);
+    Visit(loader);
+  }
+}
+
+void SubtreeCoder::Visit(LearnedStateVisitor& visitor) {
+  if (lattice_coder_) lattice_coder_->Visit(visitor);
+  split_coder_.Visit(visitor);
+  due_.Visit(visitor);
+  leaf_model_.Visit(visitor);
+  border_both_.Visit(visitor);
+  border_side_.Visit(visitor);
+}
 
 template <class Coder>
 void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* meters) {
@@ -135,7 +152,7 @@ void SubtreeCoder::CodeRoot(Coder& coder, SubtreeTruth* truth) {
   }
   if (record.state != kLeaf) open_.push_back(0);
   sets_.push_back(record);
-  lattice_coder_.AddRoot();
+  if (lattice_coder_) lattice_coder_->AddRoot();
 }
 
 double SubtreeCoder::Spacing(uint32_t set) const {
@@ -229,7 +246,7 @@ bool SubtreeCoder::CodeDue(Coder& coder, uint32_t set, double spacing, double le
 }
 
 template <class Coder>
-bool SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth,
+void SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth,
                            CostMeters* meters) {
   coder.SetMeter(&meters->split);
   uint32_t count = 0;
@@ -240,13 +257,18 @@ bool SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTr
   } else {
     const LeafSigns signs = SignsOf(set, spacing);
     const bool leaf = leaf_model_.Code(coder, signs, count == 1);
-    const OffsetCoder::SetContext context{spacing, signs.leaves, signs.others};
-    count = leaf ? 1 : offset_coder_.CodeChildCount(coder, context, count);
+    if (leaf) {
+      count = 1;
+    } else if (offset_coder_) {
+      count = offset_coder_->CodeChildCount(coder, {spacing, signs.leaves, signs.others}, count);
+    } else {
+      count = 2;
+    }
   }
   if (count == 1) {
     sets_[set].state = kLeaf;
     sets_[set].spacing = static_cast<float>(spacing);
-    return false;
+    return;
   }
   if (positions_.size() + count - 1 > shape_.vertices) {
     throw Failure(ErrorKind::kCorrupt, "coded sets exceed the vertices of the subtree");
@@ -256,24 +278,20 @@ bool SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTr
   } else {
     CodeChildren(coder, set, count, truth, meters);
   }
-  return true;
 }
 
 template <class Coder>
 void SubtreeCoder::CodeChildren(Coder& coder, uint32_t set, uint32_t count, SubtreeTruth* truth,
                                 CostMeters* meters) {
-  ring_.clear();
-  for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
-    ring_.push_back(positions_[complex_.half_edge(h).target]);
-  }
+  CollectRing(set);
   Neighbourhood at =
       MeasureNeighbourhood(positions_[set], ring_, static_cast<double>(sets_[set].scale));
-  OffsetSteps steps = offset_coder_.StepsFor(at, kLeafBound);
+  OffsetSteps steps = offset_coder_->StepsFor(at, kLeafBound);
   if constexpr (Coder::kEncoding) {
     std::vector<OffsetIndex> found(count);
     order_.resize(count);
     for (uint32_t i = 0; i < count; ++i) {
-      found[i] = offset_coder_.Quantise(at, steps, truth->ChildRepresentative(set, i));
+      found[i] = offset_coder_->Quantise(at, steps, truth->ChildRepresentative(set, i));
       order_[i] = i;
     }
     std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
@@ -285,12 +303,12 @@ void SubtreeCoder::CodeChildren(Coder& coder, uint32_t set, uint32_t count, Subt
     for (uint32_t i = 0; i < count; ++i) offsets_[i] = found[order_[i]];
     truth->BeginSplit(set, order_);
   }
-  offset_coder_.CodeOffsets(coder, at, steps, count, &offsets_, &meters->offsets);
+  offset_coder_->CodeOffsets(coder, at, steps, count, &offsets_, &meters->offsets);
   child_cells_.resize(count);
   child_positions_.resize(count);
   double reach = 0;
   for (uint32_t i = 0; i < count; ++i) {
-    child_cells_[i] = offset_coder_.CellOf(at, steps, offsets_[i]);
+    child_cells_[i] = offset_coder_->CellOf(at, steps, offsets_[i]);
     child_positions_[i] = child_cells_[i].Position(parameters_.extent);
     Vector3 d = Difference(child_positions_[i], positions_[set]);
     reach = std::max(reach, Dot(d, d));
@@ -301,12 +319,16 @@ void SubtreeCoder::CodeChildren(Coder& coder, uint32_t set, uint32_t count, Subt
   CodeBinarySplits(coder, set, truth, meters);
 }
 
-RingShape SubtreeCoder::ShapeAround(uint32_t set) {
-  const Int3& centre = positions_[set];
+void SubtreeCoder::CollectRing(uint32_t set) {
   ring_.clear();
   for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
     ring_.push_back(positions_[complex_.half_edge(h).target]);
   }
+}
+
+RingShape SubtreeCoder::ShapeAround(uint32_t set) {
+  const Int3& centre = positions_[set];
+  CollectRing(set);
   FanSums fan;
   for (uint32_t c = complex_.FirstCorner(set); c != kNone; c = complex_.corner(c).next) {
     fan.AddFace(Difference(positions_[complex_.corner(NextCorner(c)).vertex], centre),
@@ -324,8 +346,8 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, SubtreeTruth* truth
     position = truth->ChildRepresentative(set, 1);
     truth->BeginSplit(set, kOrder);
   }
-  position = lattice_coder_.CodeNew(coder, positions_[set], ShapeAround(set), precision_, position,
-                                    &meters->offsets.rho, &meters->offsets.z);
+  position = lattice_coder_->CodeNew(coder, positions_[set], ShapeAround(set), precision_, position,
+                                     &meters->offsets.rho, &meters->offsets.z);
   if constexpr (Coder::kEncoding) {
     truth->BeginBinarySplit(set, std::span(kOrder).first(1), std::span(kOrder).last(1));
   }
@@ -370,11 +392,11 @@ template <class Coder>
 void SubtreeCoder::CodeLatticeRefinement(Coder& coder, SubtreeTruth* truth, CostMeters* meters) {
   coder.SetMeter(&meters->refinement);
   for (uint32_t vertex = 0; vertex < positions_.size(); ++vertex) {
-    if (!lattice_coder_.IsCoarser(vertex, precision_)) continue;
+    if (!lattice_coder_->IsCoarser(vertex, precision_)) continue;
     Int3 position;
     if constexpr (Coder::kEncoding) position = truth->VertexPosition(vertex);
-    positions_[vertex] = lattice_coder_.Refine(coder, vertex, positions_[vertex],
-                                               ShapeAround(vertex), precision_, position);
+    positions_[vertex] = lattice_coder_->Refine(coder, vertex, positions_[vertex],
+                                                ShapeAround(vertex), precision_, position);
   }
 }
 
@@ -481,13 +503,11 @@ uint32_t SubtreeCoder::CodeBinarySplit(Coder& coder, uint32_t set, const Int3& f
   event.border = sets_[set].border;
   event.connected = split_coder_.last_connected() ? 1 : 0;
   if (both) {
-    event.first_vertex = set;
-    event.second_vertex = added;
+    event.both = 1;
     event.first_position = first;
     event.second_position = second;
     sets_[added].border = border_sets_++;
   } else {
-    event.first_vertex = first_border ? set : added;
     event.first_position = event.second_position = first_border ? first : second;
     if (second_border) std::swap(sets_[added].border, sets_[set].border);
   }
@@ -524,7 +544,7 @@ void SubtreeCoder::CodeRefinement(Coder& coder, double bound, SubtreeTruth* trut
     do {
       CylinderCell::Dimension dimension = cell.Longest();
       bool upper = Coder::kEncoding && cell.LiesInUpper(dimension, target);
-      cell.Halve(dimension, offset_coder_.CodeHalf(coder, cell, dimension, upper));
+      cell.Halve(dimension, offset_coder_->CodeHalf(coder, cell, dimension, upper));
     } while (cell.AxisBound() > bound);
     positions_[vertex] = cell.Position(parameters_.extent);
   }

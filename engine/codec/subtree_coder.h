@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -78,6 +79,9 @@ class SubtreeCoder {
   template <class Coder>
   void CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
 
+  /// All that the models have learned.
+  void Visit(LearnedStateVisitor& visitor);
+
   uint32_t layers_done() const { return layer_; }
   const std::vector<Int3>& positions() const { return positions_; }
   /// Of an exact encoding with rests, after the last layer; empty otherwise.
@@ -113,9 +117,8 @@ class SubtreeCoder {
   template <class Coder>
   bool CodeDue(Coder& coder, uint32_t set, double spacing, double least_spacing,
                SubtreeTruth* truth, CostMeters* meters);
-  /// Returns false when the set turned out to be a single vertex.
   template <class Coder>
-  bool CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth, CostMeters* meters);
+  void CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth, CostMeters* meters);
   template <class Coder>
   void CodeChildren(Coder& coder, uint32_t set, uint32_t count, SubtreeTruth* truth,
                     CostMeters* meters);
@@ -129,6 +132,8 @@ class SubtreeCoder {
   /// Brings every vertex to the precision of the layer.
   template <class Coder>
   void CodeLatticeRefinement(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
+  /// Into ring_: the neighbours' positions.
+  void CollectRing(uint32_t set);
   RingShape ShapeAround(uint32_t set);
   template <class Coder>
   void CodeBinarySplits(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters);
@@ -158,7 +163,6 @@ class SubtreeCoder {
   std::vector<Int3> positions_;
   std::vector<ExactPosition> exact_positions_;
   std::vector<SetRecord> sets_;
-  LatticeCoder lattice_coder_;
   LatticePrecision precision_;
   std::vector<CylinderCell> cells_;
   std::vector<uint32_t> cell_vertex_;
@@ -167,7 +171,9 @@ class SubtreeCoder {
   uint32_t border_sets_ = 0;
 
   SplitCoder split_coder_;
-  OffsetCoder offset_coder_;
+  // One of the two, as settings.offsets says.
+  std::optional<LatticeCoder> lattice_coder_;
+  std::optional<OffsetCoder> offset_coder_;
   /// Bits by which positions are finer than the schedule says: along the surface, and across it
   /// once more.
   std::array<uint32_t, 2> finer_{0, 0};

@@ -93,11 +93,6 @@ class Complex {
   std::array<uint32_t, 2> edge(uint32_t index) const {
     return {half_edges_[2 * index + 1].target, half_edges_[2 * index].target};
   }
-  void Reserve(size_t vertices) {
-    heads_.reserve(vertices);
-    half_edges_.reserve(vertices * 6 + 16);
-    corners_.reserve(vertices * 6 + 16);
-  }
 
  private:
   struct Heads {

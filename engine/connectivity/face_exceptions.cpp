@@ -1,6 +1,7 @@
 #include "engine/connectivity/face_exceptions.h"
 
 #include <algorithm>
+#include <string>
 
 #include "engine/entropy/bit_coder.h"
 #include "engine/entropy/integer_model.h"
@@ -65,7 +66,8 @@ void FaceExceptions::Repeat(const Complex& complex, const Face& face, uint32_t c
   if (count > most_faces_ || FaceCount(complex) + count > most_faces_) {
     throw Failure(ErrorKind::kCorrupt, "more faces coded than the table announces");
   }
-  extra_.insert(extra_.end(), count, face);
+  if (count > 0) extra_.push_back({face, count});
+  extra_count_ += count;
 }
 
 template <class Coder>
@@ -137,13 +139,18 @@ void FaceExceptions::Code(Coder& coder, const Complex& complex, const FaceCensus
 }
 
 void FaceExceptions::AppendFaces(const Complex& complex, std::vector<Face>* faces) const {
+  if (FaceCount(complex) > kMostFaces) {
+    throw Failure(ErrorKind::kLimit, std::to_string(FaceCount(complex)) +
+                                         " faces between the same vertices, more than " +
+                                         std::to_string(kMostFaces));
+  }
   faces->reserve(faces->size() + FaceCount(complex));
   for (uint32_t f = 0; f < complex.face_count(); ++f) {
     Face face = complex.face(f);
-    if (!reversed_.empty() && f < reversed_.size() && reversed_[f]) std::swap(face[1], face[2]);
+    if (!reversed_.empty() && reversed_[f]) std::swap(face[1], face[2]);
     faces->push_back(face);
   }
-  faces->insert(faces->end(), extra_.begin(), extra_.end());
+  for (const Repeated& r : extra_) faces->insert(faces->end(), r.count, r.face);
 }
 
 template void FaceExceptions::Code<BitEncoder>(BitEncoder&, const Complex&, const FaceCensus*);

@@ -26,6 +26,9 @@ FaceCensus TakeCensus(const Complex& complex, const std::vector<Face>& originals
 /// Coded once, when every set is a single vertex.
 class FaceExceptions {
  public:
+  /// What a subtree or seam may hold: 3 GiB as they are written.
+  static constexpr uint64_t kMostFaces = uint64_t{1} << 28;
+
   /// most_faces: more than this is kCorrupt, so that a few bytes cannot ask for endless copies.
   explicit FaceExceptions(uint64_t most_faces) : most_faces_(most_faces) {}
 
@@ -34,16 +37,21 @@ class FaceExceptions {
   void Code(Coder& coder, const Complex& complex, const FaceCensus* census);
 
   /// Faces in their final number and orientation. Before Code: those of the complex.
-  uint64_t FaceCount(const Complex& complex) const {
-    return complex.face_count() + uint64_t{extra_.size()};
-  }
+  uint64_t FaceCount(const Complex& complex) const { return complex.face_count() + extra_count_; }
+  /// Throws Failure kLimit when they are more than kMostFaces.
   void AppendFaces(const Complex& complex, std::vector<Face>* faces) const;
 
  private:
   void Repeat(const Complex& complex, const Face& face, uint32_t count);
   uint64_t most_faces_;
   std::vector<bool> reversed_;  ///< per face; empty when none is
-  std::vector<Face> extra_;     ///< further copies and degenerate faces
+  /// Further copies and degenerate faces, and how many of each: a few bits may announce millions.
+  struct Repeated {
+    Face face;
+    uint32_t count;
+  };
+  std::vector<Repeated> extra_;
+  uint64_t extra_count_ = 0;
 };
 
 }  // namespace folprom

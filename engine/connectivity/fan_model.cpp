@@ -52,6 +52,12 @@ FanModel::FanModel()
       squares_(kStored),
       hit_({kMostRanks * kPlaceBuckets, kOddsBuckets * kSets}, kSets) {}
 
+void FanModel::Visit(LearnedStateVisitor& visitor) {
+  visitor.Values(weights_, 1.0F / 32);
+  visitor.Values(squares_, 1.0F);
+  hit_.Visit(visitor);
+}
+
 FanModel::Triangle FanModel::TriangleOf(const Vector3& a, const Vector3& b) {
   Triangle triangle;
   triangle.normal = Cross(a, b);

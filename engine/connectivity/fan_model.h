@@ -34,6 +34,7 @@ class FanModel {
   template <class Coder>
   FanCut Code(Coder& coder, const Fan& fan, std::span<const Spoke> spokes, const Vector3& second,
               FanCut truth);
+  void Visit(LearnedStateVisitor& visitor);
 
  private:
   static constexpr uint32_t kMost = Fan::kMostPlaces;

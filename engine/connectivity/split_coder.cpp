@@ -37,7 +37,7 @@ uint32_t DegreeBucket(size_t degree) {
 }
 constexpr uint32_t kDegreeBuckets = 11;
 
-/// The paper's R (section 3.2), squared, in 1/16. Division and multiplication only, so exact to
+/// The paper's R (section 3.2), squared, in 1/16. + - * / and square roots, so exact to
 /// repeat.
 uint32_t Regularity(double a2, double b2, double c2) {
   double a = std::sqrt(a2), b = std::sqrt(b2), c = std::sqrt(c2);
@@ -63,6 +63,19 @@ SplitCoder::SplitCoder(ConnectivitySettings settings)
       face_side_({kLeanBuckets, 4}, 1),
       new_face_({9 * 3, 6 * 3}, 1),
       orientation_({15}, 1) {}
+
+void SplitCoder::Visit(LearnedStateVisitor& visitor) {
+  stays_fan_.Visit(visitor);
+  if (!fan_model_) fan_model_ = std::make_unique<FanModel>();
+  fan_model_->Visit(visitor);
+  connected_.Visit(visitor);
+  pivot_.Visit(visitor);
+  side_.Visit(visitor);
+  face_both_.Visit(visitor);
+  face_side_.Visit(visitor);
+  new_face_.Visit(visitor);
+  orientation_.Visit(visitor);
+}
 
 void SplitCoder::Gather(const Complex& complex, uint32_t vertex) {
   star_.vertex = vertex;
@@ -364,8 +377,7 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
   while (last_split_.size() < complex.vertex_count()) {
     last_split_.push_back(static_cast<uint32_t>(last_split_.size()));
   }
-  const bool may_stay_fan =
-      settings_.fan_cuts && (known.code_connected || known.connected);
+  const bool may_stay_fan = settings_.fan_cuts && (known.code_connected || known.connected);
   if (may_stay_fan && CodeFan(coder, complex, positions, known, oracle, meters)) {
     last_split_[vertex] = complex.vertex_count();
     star_.second = complex.AddVertex();

@@ -66,6 +66,7 @@ class SplitCoder {
 
   /// Were the children of the split coded last connected.
   bool last_connected() const { return star_.connected; }
+  void Visit(LearnedStateVisitor& visitor);
 
  private:
   void Gather(const Complex& complex, uint32_t vertex);

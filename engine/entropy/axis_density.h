@@ -1,4 +1,4 @@
-// A density on a line, summed from tents, whose distribution function costs one look-up.
+// A density on a line, summed from boxes, whose distribution function costs one look-up.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,14 @@ namespace folprom {
 
 class AxisDensity {
  public:
-  /// Empties it; the tents will lie between lo and hi.
+  /// Empties it; the boxes will lie between lo and hi.
   void Start(double lo, double hi) {
     lo_ = lo;
     per_bin_ = static_cast<double>(kBins) / std::max(hi - lo, 1e-9);
     mass_.fill(0);
   }
-  /// Mass spread like a tent over [middle - half, middle + half]; in bins, as a box at least.
+  /// Mass as wide as a tent over [middle - half, middle + half] looks, which is a box of three
+  /// quarters of that; a bin at least.
   void Add(double middle, double half, double mass) {
     const double reach = std::max(half * per_bin_ * 0.75, 0.5);
     const double left = std::clamp((middle - lo_) * per_bin_ - reach, 0.0, kLast);

@@ -24,6 +24,21 @@ inline constexpr auto kCost = [] {
   cost[0] = 13 * 1024;
   return cost;
 }();
+
+/// The number of [low, high] whose upper `bytes` bytes are the fewest that may be other than 0.
+struct Ending {
+  uint64_t value = 0;
+  size_t bytes = 0;
+};
+inline Ending ShortestEnding(uint64_t low, uint64_t high) {
+  for (size_t bytes = 0; bytes < 8; ++bytes) {
+    const uint64_t mask = ~uint64_t{0} >> (8 * bytes);
+    if ((low & mask) == 0) return {low, bytes};
+    const uint64_t value = (low | mask) + 1;
+    if (value != 0 && value <= high) return {value, bytes};  // 0: ran over the top
+  }
+  return {low, 8};
+}
 }  // namespace detail
 
 /// Writes decisions. Not thread-safe.
@@ -57,16 +72,9 @@ class BitEncoder {
   /// Ends the segment with the fewest bytes that tell it from every other; the decoder reads zeros
   /// beyond the end. Returns the segment and starts a new one.
   std::vector<uint8_t> TakeSegment() {
-    for (int kept = 0; kept <= 8; ++kept) {
-      uint64_t mask = kept == 0 ? ~uint64_t{0} : (kept == 8 ? 0 : ~uint64_t{0} >> (8 * kept));
-      uint64_t value = low_;
-      if ((low_ & mask) != 0) {
-        value = (low_ | mask) + 1;
-        if (value == 0) continue;  // ran over the top
-      }
-      if (value > high_) continue;
-      for (int i = 0; i < kept; ++i) bytes_.push_back(static_cast<uint8_t>(value >> (56 - 8 * i)));
-      break;
+    const detail::Ending ending = detail::ShortestEnding(low_, high_);
+    for (size_t i = 0; i < ending.bytes; ++i) {
+      bytes_.push_back(static_cast<uint8_t>(ending.value >> (56 - 8 * i)));
     }
     low_ = 0;
     high_ = ~uint64_t{0};
@@ -118,11 +126,13 @@ class BitDecoder {
     return bit;
   }
   void SetMeter(uint64_t*) {}
-  /// Throws Failure kCorrupt when the segment holds bytes that no decision needed.
+  /// Throws Failure kCorrupt unless the segment has just the bytes that its decisions need.
   void FinishSegment() const {
-    if (bytes_.size() > position_) {
+    const size_t needed = position_ - 8 + detail::ShortestEnding(low_, high_).bytes;
+    if (bytes_.size() > needed) {
       throw Failure(ErrorKind::kCorrupt, "coded segment is longer than its content");
     }
+    if (bytes_.size() < needed) throw Failure(ErrorKind::kCorrupt, "coded segment ends early");
   }
 
  private:

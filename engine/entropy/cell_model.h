@@ -62,26 +62,25 @@ class ScaleTable {
   explicit ScaleTable(uint32_t contexts, double first) : entries_(contexts, {first, 0}) {}
   double Of(uint32_t context) const { return entries_[context].mean; }
   void Learn(uint32_t context, double size) {
-    Entry& entry = entries_[context];
+    LearnedScale& entry = entries_[context];
     if (entry.count < 200) entry.count = entry.count + 1;
     entry.mean = entry.mean + (size - entry.mean) / (entry.count + 3);
   }
 
+  void Visit(LearnedStateVisitor& visitor) { visitor.Scales(entries_); }
+
  private:
-  struct Entry {
-    double mean;
-    double count;
-  };
-  std::vector<Entry> entries_;
+  std::vector<LearnedScale> entries_;
 };
 
 /// N contexts, P predictions and, where M is 1, a density that the caller measured.
 template <size_t N, size_t P, size_t M = 0>
 class CellModel {
  public:
-  /// Decisions that a context tells apart: side, octave of the distance, first halving inside it.
+  /// Decisions that a context tells apart: side, octave of the distance, first halving inside it,
+  /// all further ones.
   static constexpr uint32_t kOctaves = 10;
-  static constexpr uint32_t kSlots = 1 + 2 * kOctaves + 2 * kOctaves;
+  static constexpr uint32_t kSlots = 1 + 2 * kOctaves + 2 * kOctaves + 1;
 
   explicit CellModel(std::array<uint32_t, N> sizes) : decisions_(Scaled(sizes), kSlots) {}
 
@@ -119,6 +118,8 @@ class CellModel {
     }
     return static_cast<int32_t>(interval.a);
   }
+
+  void Visit(LearnedStateVisitor& visitor) { decisions_.Visit(visitor); }
 
  private:
   /// What is left: cells [a, c), and the distribution functions there, from the left and from the

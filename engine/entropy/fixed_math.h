@@ -2,8 +2,14 @@
 #pragma once
 
 #include <bit>
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
+
+#if defined(__FAST_MATH__) || FLT_EVAL_METHOD != 0
+#error \
+    "files would differ: floating point must be rounded after every operation, as IEEE 754 has it"
+#endif
 
 namespace folprom {
 
@@ -40,7 +46,7 @@ constexpr double Log2Exact(double x) {
   return whole + 2 * sum / 0.69314718055994530942;
 }
 
-/// Sine and cosine of an angle of any sign below 100 radians in size; absolute error below 1e-15.
+/// Sine and cosine of an angle of any sign below 100 radians in size; absolute error below 2e-14.
 inline void SinCos(double angle, double* sine, double* cosine) {
   double turns = std::floor(angle / (kPi / 2) + 0.5);
   double x = angle - turns * (kPi / 2), square = x * x;
@@ -107,7 +113,8 @@ inline double Angle(double x, double y) {
   return angle < 2 * kPi ? angle : 0;
 }
 
-/// Floor of 2 log2(value) for value >= 1: the half octave an integer lies in; 0 for 0.
+/// About the floor of 2 log2(value) for value >= 1 (half octaves begin at 181/128 of a power of
+/// two); 0 for 0.
 inline int HalfOctave(uint64_t value) {
   if (value < 2) return 0;
   int width = static_cast<int>(std::bit_width(value)) - 1;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/entropy/fixed_math.h"
+#include "engine/entropy/learned_state.h"
 
 namespace folprom {
 
@@ -47,10 +48,8 @@ inline constexpr auto kRate = [] {
 template <size_t N, size_t E = 0>
 class MixedModel {
  public:
-  /// sizes[i]: number of values of context i. limit: a probability adapts at least by 1/limit
-  /// (at most 255).
-  explicit MixedModel(std::array<uint32_t, N> sizes, uint32_t sets = 1, uint32_t limit = 250)
-      : limit_(limit) {
+  /// sizes[i]: number of values of context i.
+  explicit MixedModel(std::array<uint32_t, N> sizes, uint32_t sets = 1) {
     for (size_t i = 0; i < N; ++i) states_[i].assign(sizes[i], uint32_t{1} << 31);
     weights_.assign(sets, Initial());
   }
@@ -82,8 +81,15 @@ class MixedModel {
     return bit;
   }
 
+  void Visit(LearnedStateVisitor& visitor) {
+    for (auto& states : states_) visitor.Decisions(states);
+    for (auto& weight : weights_) visitor.Values(weight, 1024);
+  }
+
  private:
   static constexpr int kLearning = 12;
+  /// A probability moves at least by one in so many.
+  static constexpr uint32_t kMostSeen = 250;
   static std::array<int32_t, N + E> Initial() {
     std::array<int32_t, N + E> weight;
     const double whole = E > 0 ? 0.4 : (N == 1 ? 1.0 : 1.3);
@@ -99,11 +105,10 @@ class MixedModel {
     int32_t target = bit ? (1 << 22) - 1 : 0;
     probability += static_cast<int32_t>(
         (static_cast<int64_t>(target - probability) * detail::kRate[count]) >> 16);
-    if (count < limit_) ++count;
+    if (count < kMostSeen) ++count;
     *state = static_cast<uint32_t>(probability) << 10 | count;
   }
 
-  uint32_t limit_;
   std::array<std::vector<uint32_t>, N> states_;
   std::vector<std::array<int32_t, N + E>> weights_;
 };

@@ -5,10 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/entropy/learned_state.h"
+#include "engine/entropy/least_squares.h"
+
 namespace folprom {
 
-/// Predicts y from K features. Starts from given weights; refits by least squares, older samples
-/// fading, each time enough new ones have come.
+/// Predicts y from K features of size 1e6 or less. Starts from given weights; refits by least
+/// squares, older samples fading, each time enough new ones have come.
 template <size_t K>
 class OnlineRegression {
  public:
@@ -32,6 +35,11 @@ class OnlineRegression {
     for (double& value : targets_) value = value * kFade;
   }
 
+  void Visit(LearnedStateVisitor& visitor) {
+    visitor.Values(weights_, 1.0 / 64);
+    first_ = weights_;
+  }
+
  private:
   static constexpr uint32_t kRefit = 32;
   static constexpr double kFade = 0.995;
@@ -46,18 +54,7 @@ class OnlineRegression {
       a[i][i] = a[i][i] + kRidge;
       a[i][K] = targets_[i] + kRidge * first_[i];
     }
-    // Positive definite: elimination without pivoting is stable.
-    for (size_t k = 0; k < K; ++k) {
-      for (size_t i = k + 1; i < K; ++i) {
-        const double factor = a[i][k] / a[k][k];
-        for (size_t j = k; j <= K; ++j) a[i][j] = a[i][j] - factor * a[k][j];
-      }
-    }
-    for (size_t k = K; k-- > 0;) {
-      double sum = a[k][K];
-      for (size_t j = k + 1; j < K; ++j) sum = sum - a[k][j] * weights_[j];
-      weights_[k] = sum / a[k][k];
-    }
+    SolvePositive(a, &weights_);
   }
 
   std::array<double, K> weights_, first_;

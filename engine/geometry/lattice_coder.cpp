@@ -37,11 +37,16 @@ constexpr std::array<double, 5> kEccentricityBounds{0.06, 0.12, 0.2, 0.3, 0.45};
 
 uint32_t CountBucket(uint32_t count) { return count < 4 ? 0 : (count > 9 ? 7 : count - 3); }
 
-/// What the new vertex's offset along an axis may follow, in spacings.
+/// What the new vertex's offset along an axis may follow, in spacings. A hub with many neighbours
+/// next to it may have others very far away.
 std::array<double, 5> Features(const RingShape& ring, uint32_t axis) {
-  double inverse = 1 / ring.spacing;
-  return {ring.mean[axis] * inverse, ring.direction[axis] * inverse, ring.reach[axis] * inverse,
-          ring.area_centre[axis] * inverse, ring.rim_centre[axis] * inverse};
+  const double inverse = 1 / ring.spacing;
+  const auto feature = [&](const Vector3& from) {
+    constexpr double kMost = 64;
+    return std::clamp(from[axis] * inverse, -kMost, kMost);
+  };
+  return {feature(ring.mean), feature(ring.direction), feature(ring.reach),
+          feature(ring.area_centre), feature(ring.rim_centre)};
 }
 
 /// A logistic density of scale s misses by 1.386 s on average.
@@ -57,7 +62,17 @@ LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi)
       tangential_fit_(8, OnlineRegression<5>({2, 0, 0, 0, 0})),
       tangential_scale_(2 * 2 * 8 * 6, 1),
       normal_scale_(2 * 16, 1),
-      refine_({3 * 12, 16}) {}
+      refine_({2 * 12, 16}) {}
+
+void LatticeCoder::Visit(LearnedStateVisitor& visitor) {
+  tangential_.Visit(visitor);
+  density_.Visit(visitor);
+  normal_.Visit(visitor);
+  for (auto& fit : tangential_fit_) fit.Visit(visitor);
+  tangential_scale_.Visit(visitor);
+  normal_scale_.Visit(visitor);
+  refine_.Visit(visitor);
+}
 
 int32_t LatticeCoder::Centre(uint32_t axis, int32_t cell, uint32_t shift) const {
   int64_t begin = int64_t{cell} << shift;
@@ -129,7 +144,8 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
         tangential_scale_.Learn(place * 2 + p, std::fabs(place_now - means[p]) / width);
       }
       if (step == 0) miss_before = place_now - straight;
-      tangential_fit_[count].Learn(Features(ring, axis), place_now * inverse);
+      tangential_fit_[count].Learn(Features(ring, axis),
+                                   std::clamp(place_now * inverse, -64.0, 64.0));
       if (step == 1) density_.Learn(place_now);
     } else {
       double steep = std::fabs(ring.normal[axis]);

@@ -43,6 +43,7 @@ class LatticeCoder {
   template <class Coder>
   Int3 Refine(Coder& coder, uint32_t vertex, const Int3& known, const RingShape& ring,
               LatticePrecision precision, const Int3& truth);
+  void Visit(LearnedStateVisitor& visitor);
 
  private:
   using Shifts = std::array<uint8_t, 3>;
@@ -54,7 +55,7 @@ class LatticeCoder {
   TangentDensity density_;
   AxisDensity axis_density_;
   CellModel<2, 2> normal_;
-  /// Offset of the new vertex from mean, direction and reach of the ring, by number of neighbours.
+  /// Offset of the new vertex from the means of the ring, by number of neighbours.
   std::vector<OnlineRegression<5>> tangential_fit_;
   ScaleTable tangential_scale_;
   ScaleTable normal_scale_;

@@ -58,7 +58,8 @@ Vector3 SmallestAxis(Matrix3 a) {
   return axis;
 }
 
-/// Projection on the plane of the global axis that lies flattest in it.
+}  // namespace
+
 Vector3 TangentAxis(const Vector3& normal) {
   size_t flattest = 0;
   for (size_t i = 1; i < 3; ++i) {
@@ -72,8 +73,6 @@ Vector3 TangentAxis(const Vector3& normal) {
   for (double& value : axis) value = value / length;
   return axis;
 }
-
-}  // namespace
 
 Neighbourhood MeasureNeighbourhood(const Int3& vertex, std::span<const Int3> neighbours,
                                    double scale) {

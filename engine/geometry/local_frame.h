@@ -32,6 +32,9 @@ struct LocalFrame {
   Vector3 y() const { return Cross(z, x); }
 };
 
+/// Projection of the global axis that lies flattest in the plane across a unit normal on it; unit.
+Vector3 TangentAxis(const Vector3& normal);
+
 /// A frame with what the neighbours say about the surface there. Lattice units.
 struct Neighbourhood {
   LocalFrame frame;

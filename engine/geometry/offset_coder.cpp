@@ -88,7 +88,7 @@ OffsetCoder::OffsetCoder(const OffsetSettings& settings)
                {Places(settings.children) * kSignedBuckets, kSignedBuckets * 6})),
       y_(Where(settings.cartesian,
                {Places(settings.children) * kSignedBuckets, kSignedBuckets * kSignedBuckets})),
-      z_({7 * 5 * 2 * settings.children, kSizeBuckets * 6}),
+      z_({7 * 5 * settings.children, kSizeBuckets * 6}),
       half_({3 * 16}) {}
 
 OffsetSteps OffsetCoder::StepsFor(const Neighbourhood& at, double least) const {
@@ -230,11 +230,10 @@ int32_t OffsetCoder::CodeHeight(Coder& coder, Siblings& siblings, uint32_t i, do
       SizeBucket(static_cast<uint64_t>(predicted < 0 ? -int64_t{predicted} : predicted)), 4u);
   int32_t residual = RoundToInt(static_cast<double>(index) - predicted);
   if (meters->tally) meters->tally->z.Add(residual);
-  residual = z_.CodeSigned(
-      coder,
-      {((siblings.hollow * 5 + bucket) * 2 + (i > 0 ? 1 : 0)) * settings_.children + i,
-       SizeBucket(siblings.z_before) * 6 + siblings.steep},
-      residual);
+  residual = z_.CodeSigned(coder,
+                           {(siblings.hollow * 5 + bucket) * settings_.children + i,
+                            SizeBucket(siblings.z_before) * 6 + siblings.steep},
+                           residual);
   siblings.z_before = static_cast<uint32_t>(residual < 0 ? -residual : residual);
   return RoundToInt(static_cast<double>(residual) + predicted);
 }

@@ -1,7 +1,10 @@
 #include "engine/geometry/ring_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "engine/entropy/least_squares.h"
 
 namespace folprom {
 namespace {
@@ -9,7 +12,7 @@ namespace {
 void FitBend(RingShape* shape, std::span<const Vector3> local) {
   // Least squares for (uu, uv, vv) in units of the spacing, with a ridge that keeps thin rings
   // tame.
-  double a[3][4] = {};
+  std::array<std::array<double, 4>, 3> a{};
   double unit = shape->spacing > 0 ? 1 / shape->spacing : 0;
   for (const Vector3& p : local) {
     double u = p[0] * unit, v = p[1] * unit, h = p[2] * unit;
@@ -21,23 +24,12 @@ void FitBend(RingShape* shape, std::span<const Vector3> local) {
   }
   constexpr double kRidge = 0.1;
   for (size_t i = 0; i < 3; ++i) a[i][i] = a[i][i] + kRidge;
-  // Positive definite: elimination without pivoting is stable.
-  for (size_t k = 0; k < 3; ++k) {
-    for (size_t i = k + 1; i < 3; ++i) {
-      double factor = a[i][k] / a[k][k];
-      for (size_t j = k; j < 4; ++j) a[i][j] = a[i][j] - factor * a[k][j];
-    }
-  }
-  for (size_t k = 3; k-- > 0;) {
-    double sum = a[k][3];
-    for (size_t j = k + 1; j < 3; ++j) sum = sum - a[k][j] * shape->bend[j];
-    shape->bend[k] = sum / a[k][k];
-  }
+  SolvePositive(a, &shape->bend);
   for (double& value : shape->bend) value = value * unit;
 }
 
 Vector3 AnyNormal(std::span<const Vector3> ring, const Vector3& mean) {
-  // Without faces: across the two neighbours that lie widest apart from the mean's direction.
+  // Without faces: across the two that span most of those which follow each other in the list.
   Vector3 best{0, 0, 0};
   double most = 0;
   for (size_t i = 0; i + 1 < ring.size(); ++i) {
@@ -135,19 +127,13 @@ RingShape MeasureRing(const Int3& vertex, std::span<const Int3> ring, const FanS
   shape.normal = Dot(fan.normal, fan.normal) > 0 ? fan.normal : AnyNormal(near, shape.mean);
   double length = std::sqrt(Dot(shape.normal, shape.normal));
   for (double& value : shape.normal) value = value / length;
-  size_t flattest = 0, steepest = 0;
-  for (size_t i = 1; i < 3; ++i) {
-    double size = shape.normal[i] * shape.normal[i];
-    if (size < shape.normal[flattest] * shape.normal[flattest]) flattest = i;
-    if (size > shape.normal[steepest] * shape.normal[steepest]) steepest = i;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const double size = shape.normal[i] * shape.normal[i];
+    if (i == 0 || size > shape.normal[shape.dominant] * shape.normal[shape.dominant]) {
+      shape.dominant = i;
+    }
   }
-  shape.dominant = static_cast<uint32_t>(steepest);
-  Vector3 tangent{0, 0, 0};
-  tangent[flattest] = 1;
-  double height = shape.normal[flattest];
-  for (size_t i = 0; i < 3; ++i) tangent[i] = tangent[i] - height * shape.normal[i];
-  length = std::sqrt(Dot(tangent, tangent));
-  for (double& value : tangent) value = value / length;
+  const Vector3 tangent = TangentAxis(shape.normal);
   shape.tangent = tangent;
   Vector3 side = Cross(shape.normal, tangent);
   double low = 0, high = 0;

@@ -37,6 +37,15 @@ TangentDensity::TangentDensity()
   for (auto& table : pair_) table.fill({});
 }
 
+void TangentDensity::Visit(LearnedStateVisitor& visitor) {
+  constexpr float kUnit = 1.0F / 32;
+  for (auto& table : place_) visitor.Values(table, kUnit);
+  for (auto& table : far_) visitor.Values(table, kUnit);
+  for (auto& tables : pair_) {
+    for (auto& table : tables) visitor.Values(table, kUnit);
+  }
+}
+
 void TangentDensity::Prepare(const RingShape& ring, const Vector3& ahead) {
   spacing_ = ring.spacing;
   normal_ = ring.normal;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/entropy/axis_density.h"
+#include "engine/entropy/learned_state.h"
 #include "engine/geometry/ring_shape.h"
 
 namespace folprom {
@@ -27,6 +28,7 @@ class TangentDensity {
   void Second(uint32_t axis, uint32_t first, double first_offset, AxisDensity* density);
   /// After a vertex: its offset along the second axis.
   void Learn(double second_offset);
+  void Visit(LearnedStateVisitor& visitor);
 
  private:
   static constexpr size_t kAlong = 15, kAside = 11, kCells = kAlong * kAside;

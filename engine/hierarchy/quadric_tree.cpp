@@ -15,7 +15,6 @@
 namespace folprom {
 namespace {
 
-constexpr uint32_t kNobody = 0xffffffff;
 /// A vertex with more neighbours than this looks at the first of them only.
 constexpr size_t kMostCandidates = 64;
 /// Planes through open edges, perpendicular to the face, weigh this much more than the face.

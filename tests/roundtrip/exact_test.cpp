@@ -147,6 +147,29 @@ TEST(Exact, GivesBackTheSmallestMeshes) {
   ExpectExact({false, {{nan, nan, nan}, {nan, nan, nan}, {0, 1, 2}}, {{0, 1, 2}, {1, 2, 1}}}, 10);
 }
 
+// Positions that follow from the box alone, so that a layer changes vertices and codes nothing.
+TEST(Exact, GivesBackAFewVerticesFarFromOne) {
+  Random random(11);
+  for (int i = 0; i < 120; ++i) {
+    const uint64_t far = uint64_t{1} << (12 + 3 * random.Below(2)), spread = 4 + random.Below(50);
+    const bool on_a_line = random.Below(2) == 0;
+    BitMesh mesh{true, {}, {}};
+    const auto bits = [](uint64_t value) { return NarrowToFloatBits(static_cast<double>(value)); };
+    const uint64_t near = 3 + random.Below(5);
+    for (uint64_t v = 0; v < near; ++v) {
+      Bits3 position;
+      for (uint64_t& value : position) value = bits(far + random.Below(spread));
+      if (on_a_line) position[1] = position[2] = bits(0);
+      mesh.positions.push_back(position);
+    }
+    mesh.positions.push_back({bits(0), bits(0), bits(0)});
+    const uint64_t copies = 3 + random.Below(6);
+    for (uint64_t c = 0; c < copies; ++c) mesh.faces.push_back({near, 0, 0});
+    for (uint64_t v = 0; v + 1 < near; ++v) mesh.faces.push_back({v, v + 1, v + 1});
+    ExpectExact(mesh, 1 << 24);
+  }
+}
+
 TEST(Exact, FindsTheLatticeOfTheCoordinates) {
   struct Expected {
     Case given;

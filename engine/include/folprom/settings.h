@@ -67,6 +67,9 @@ struct CodecSettings {
   bool pivot_order = true;   ///< flags in order of regularity; false: by vertex id
   bool nearer_child = true;  ///< side flags relative to the nearer child
 
+  /// Offsets::kLattice: models start from what other meshes taught them. false: from nothing.
+  bool trained = true;
+
   // Layers
   uint32_t layers_per_octave = 4;  ///< layers per halving of the spacing; 1 .. 8
   uint32_t rounds_per_layer = 1;   ///< largest spacing first, in this many steps a layer; 1 .. 16

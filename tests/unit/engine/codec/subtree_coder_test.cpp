@@ -136,8 +136,7 @@ void ExpectComesBack(const Chunk& chunk, const CodecParameters& parameters) {
   for (size_t e = 0; e < encoded.border.events.size(); ++e) {
     const BorderEvent &a = decoder.border().events[e], &b = encoded.border.events[e];
     ASSERT_EQ(a.border, b.border);
-    ASSERT_EQ(a.first_vertex, b.first_vertex);
-    ASSERT_EQ(a.second_vertex, b.second_vertex);
+    ASSERT_EQ(a.both, b.both);
     ASSERT_EQ(a.first_position, b.first_position);
     ASSERT_EQ(a.connected, b.connected);
   }

@@ -107,6 +107,37 @@ TEST(BitCoder, TakesNoByteForNothingAndForWhatIsNearlyCertain) {
   EXPECT_LE(Coded({{32768, false}}).size(), 1u);
 }
 
+/// Other bytes may tell other decisions, but never the same ones.
+TEST(BitCoder, RejectsASegmentThatIsLongerOrShorterThanItsContent) {
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    const auto decisions = RandomDecisions(seed, seed % 40);
+    const std::vector<uint8_t> whole = Coded(decisions);
+    const auto is_taken_for_it = [&](std::span<const uint8_t> segment) {
+      BitDecoder decoder;
+      decoder.StartSegment(segment);
+      try {
+        for (const Decision& d : decisions) {
+          if (decoder.Code(d.probability) != d.bit) return false;
+        }
+        decoder.FinishSegment();
+      } catch (const Failure&) {
+        return false;
+      }
+      return true;
+    };
+    EXPECT_TRUE(is_taken_for_it(whole));
+    for (size_t more = 1; more < 10; ++more) {
+      for (int surplus : {0x00, 0x01, 0xa5, 0xff}) {
+        std::vector<uint8_t> longer = whole;
+        longer.resize(whole.size() + more, static_cast<uint8_t>(surplus));
+        EXPECT_FALSE(is_taken_for_it(longer)) << seed << ' ' << more;
+      }
+    }
+    if (whole.empty()) continue;
+    EXPECT_FALSE(is_taken_for_it(std::span(whole).first(whole.size() - 1))) << seed;
+  }
+}
+
 TEST(BitCoder, CountsDecisionsAlsoThoseWithoutBytes) {
   BitEncoder encoder;
   EXPECT_EQ(encoder.decisions(), 0u);

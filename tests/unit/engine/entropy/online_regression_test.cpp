@@ -54,5 +54,14 @@ TEST(OnlineRegression, EqualFeaturesAndLargeTargetsStayFinite) {
   }
 }
 
+TEST(OnlineRegression, KeepsItsWeightsWhereRoundingHidesTheRidge) {
+  OnlineRegression<5> fit({2, 0, 0, 0, 0});
+  for (int i = 0; i < 10000; ++i) {
+    const double x = 268435456.0 + i % 2;
+    fit.Learn({0, 0, 0, x, i % 5 == 0 ? x * 2 / 3 : x}, 1);
+    ASSERT_TRUE(std::isfinite(fit.Predict({1, 1, 1, 1, 1})));
+  }
+}
+
 }  // namespace
 }  // namespace folprom

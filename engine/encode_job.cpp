@@ -37,7 +37,7 @@ std::string InnerName(size_t subtree) { return "inner." + std::to_string(subtree
 std::string SeamName(size_t subtree) { return "seam." + std::to_string(subtree); }
 
 /// Sides of the box for which error bounds stay inside a float and steps above its finest.
-constexpr double kSmallestSide = 1e-280, kLargestSide = 1e37;
+constexpr double kSmallestSide = 1e-280, kLargestSide = kLargestTolerance;
 
 std::string Text(double value) {
   char text[32];

@@ -73,6 +73,9 @@ TEST_F(Usage, RejectsValuesOutOfRangeNamingTheOption) {
   for (const char* value : {"0", "-1", "nan", "inf", "1mm", ""}) {
     ExpectError(with(encode, "--tolerance", value), 2, "--tolerance");
   }
+  for (const char* value : {"1e38", "1e41", "1e300"}) {
+    ExpectError(with(encode, "--tolerance", value), 2, "tolerance");
+  }
   for (const char* value : {"12x", "-1", "", "1.5", "1e300", "MiB"}) {
     ExpectError(with(encode, "-M", value), 2, "--memory");
   }

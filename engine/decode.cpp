@@ -1,6 +1,5 @@
 // Decoding, stage by stage.
 #include <algorithm>
-#include <numeric>
 
 #include "engine/decode_pipeline.h"
 #include "engine/folp_file.h"
@@ -70,8 +69,7 @@ DecodeSelection SelectionFor(const FolpFile& file, const DecodeOptions& options)
     }
     selection.wanted = SubtreesInBox(table, selection.layers, lo, hi);
   } else {
-    selection.wanted.resize(table.subtrees.size());
-    std::iota(selection.wanted.begin(), selection.wanted.end(), 0u);
+    selection.wanted = AllSubtrees(table);
   }
   return selection;
 }

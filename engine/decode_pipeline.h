@@ -45,6 +45,7 @@ struct DecodeSelection {
   std::vector<uint32_t> wanted;  ///< subtrees to hand on, ascending; seams between them come too
 };
 
+std::vector<uint32_t> AllSubtrees(const io::FileTable& table);
 /// Every subtree that may have a representative in [lo, hi] (lattice coordinates as doubles) in the
 /// LOD of `layers` layers.
 std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, const double* lo,

@@ -1,5 +1,7 @@
 // What encode, decode, info and verify print, and their exit codes on good and bad files.
 #include <algorithm>
+#include <cstring>
+#include <limits>
 
 #include "tests/cli/program.h"
 
@@ -130,6 +132,23 @@ TEST_F(Report, VerifyAgainstAnotherScanGivesFour) {
   EXPECT_EQ(outcome.json().at("lossless"), false);
   EXPECT_NE(outcome.json().at("reason"), "");
   EXPECT_NE(outcome.err.find("not lossless"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Report, VerifyAgainstAScanWithACoordinateThatIsNotFiniteGivesFour) {
+  const std::string whole = FileText(Path("s.ply"));
+  const size_t body = whole.find("end_header\n") + 11;
+  for (const float value :
+       {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN(),
+        std::numeric_limits<float>::infinity()}) {
+    for (const size_t coordinate : {size_t{0}, size_t{4501}, size_t{8999}}) {
+      std::string scan = whole;
+      std::memcpy(scan.data() + body + coordinate * sizeof value, &value, sizeof value);
+      WriteText(Path("nan.ply"), scan);
+      const Outcome outcome = Run({"verify", Path("s.folp"), "--against", Path("nan.ply"), "-q"});
+      EXPECT_EQ(outcome.exit_code, 4) << coordinate;
+      EXPECT_NE(outcome.err.find("not lossless"), std::string::npos) << outcome.err;
+    }
+  }
 }
 
 TEST_F(Report, FileCutInsideTheTableGivesFour) {

@@ -103,8 +103,9 @@ Result<FileInfo> ReadInfo(const std::string& input);
 
 struct VerifyReport {
   bool lossless = false;
-  bool against = false;           ///< an original was compared
-  double max_position_error = 0;  ///< largest |difference| on one axis, model units (against only)
+  bool against = false;  ///< an original was compared
+  /// Largest |difference| on one axis, model units (against only); infinite where it is not finite.
+  double max_position_error = 0;
   double tolerance = 0;
   uint64_t vertices = 0;
   uint64_t faces = 0;

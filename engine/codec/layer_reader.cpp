@@ -28,9 +28,8 @@ namespace {
 /// What the table says of an exact lattice; origin and unit must be those of its step.
 void CompleteExact(const io::FileTable& table, ExactLattice* exact) {
   ExactStep& step = exact->step;
-  const auto type = static_cast<io::ScalarType>(table.coordinate_type);
-  step.is_float = type == io::ScalarType::kFloat32;
-  bool agrees = (step.is_float || type == io::ScalarType::kFloat64) && table.unit == step.Unit();
+  step.is_float = static_cast<io::ScalarType>(table.coordinate_type) == io::ScalarType::kFloat32;
+  bool agrees = table.unit == step.Unit();
   for (size_t axis = 0; agrees && axis < 3; ++axis) {
     const double first = std::floor(step.Scaled(table.origin[axis]) + 0.5);
     agrees = std::fabs(first) <= static_cast<double>(ExactLattice::kLargestWhole);
@@ -53,6 +52,13 @@ CodecParameters ParametersOf(const io::FileTable& table) {
     throw Failure(ErrorKind::kCorrupt,
                   "the coder's settings announce " + std::to_string(parameters.schedule.layers()) +
                       " layers, the table " + std::to_string(table.layers.size()));
+  for (size_t s = 0; s < table.subtrees.size(); ++s) {
+    if (table.subtrees[s].vertices <= parameters.settings.subtree_vertices) continue;
+    throw Failure(ErrorKind::kCorrupt, "subtree " + std::to_string(s) + " has " +
+                                           std::to_string(table.subtrees[s].vertices) +
+                                           " vertices, the coder's settings allow " +
+                                           std::to_string(parameters.settings.subtree_vertices));
+  }
   }
   return parameters;
 }

@@ -16,7 +16,8 @@ size_t LayersFor(const FolpFile& file, const DecodeOptions& options) {
   const io::FileTable& table = file.table();
   size_t present = file.container().complete_layers();
   if (present == 0) {
-    throw Failure(ErrorKind::kCorrupt, "the file is cut before the end of its first layer");
+    throw Failure(ErrorKind::kCorrupt,
+                  file.container().name() + ": the file is cut before the end of its first layer");
   }
   auto last_that = [&](auto fits) {
     size_t count = 1;
@@ -117,7 +118,7 @@ class DecodeJob {
   void DecodeAll(DecodeReport* report) {
     const io::LayerRecord& layer = file_.table().layers[selection_.layers - 1];
     auto writer = MakeWriter(layer.vertices, layer.faces);
-    PlySink sink(file_.lattice(), layer, *writer);
+    PlySink sink(file_.lattice(), layer, file_.container().name(), *writer);
     Decode(sink);
     report->vertices = sink.vertices();
     report->faces = sink.faces();

@@ -158,6 +158,14 @@ TEST_F(Report, FileCutInsideTheTableGivesFour) {
   EXPECT_FALSE(std::filesystem::exists(Path("d.ply")));
 }
 
+TEST_F(Report, FileCutInsideTheFirstLayerIsNamed) {
+  const auto info = Run({"info", Path("s.folp"), "--json"}).json();
+  const auto end = info.at("layers").at(0).at("end_byte").get<size_t>();
+  WriteText(Path("cut.folp"), FileText(Path("s.folp")).substr(0, end - 1));
+  ExpectError({"compare", Path("s.folp"), Path("cut.folp"), "--json"}, 4, Path("cut.folp") + ": ");
+  ExpectError({"decode", Path("cut.folp"), "-o", Path("d.ply")}, 4, Path("cut.folp") + ": ");
+}
+
 TEST_F(Report, CutFileIsNotLossless) {
   const std::string whole = FileText(Path("s.folp"));
   WriteText(Path("cut.folp"), whole.substr(0, whole.size() - 1));

@@ -44,6 +44,10 @@ ErrorKind DecodeFileError(const Parts& parts) {
   auto report =
       DecodeFile(folder.File("forged.folp"), folder.File("out.ply"), options, *runner, progress);
   if (report.ok()) return ErrorKind::kUsage;
+  if (report.error().kind == ErrorKind::kCorrupt) {
+    EXPECT_TRUE(report.error().message.starts_with(folder.File("forged.folp") + ": "))
+        << report.error().message;
+  }
   EXPECT_EQ(folder.Names(), std::vector<std::string>{"forged.folp"}) << report.error().message;
   return report.error().kind;
 }

@@ -192,9 +192,8 @@ void EncodeJob::EncodeSubtrees(bool keep_order) {
   runner_.ForEach(order.size(), [&](size_t i) {
     size_t subtree = order[i];
     const SubtreeSummary& summary = scan_->summary(subtree);
-    progress_.ThrowIfCancelled();
-    progress_.ThrowIfCancelled();  // behind the wait: the job may have been cancelled meanwhile
     auto lease = budget.Acquire(EncodeSubtreeBytes(summary, parameters_));
+    progress_.ThrowIfCancelled();  // behind the wait: the job may have been cancelled meanwhile
     SubtreeChunk chunk = scan_->Load(subtree);
     EncodedSubtree encoded =
         EncodeSubtree(chunk, summary, static_cast<uint32_t>(subtree), parameters_);
@@ -357,6 +356,9 @@ std::vector<std::string> EncodeJob::Warnings() const {
   if (notes.polygons_triangulated > 0) {
     warnings.push_back(count(notes.polygons_triangulated, "polygon", "polygons") +
                        " cut into triangles");
+  }
+  if (notes.strips > 0) {
+    warnings.push_back(count(notes.strips, "triangle strip", "triangle strips") + " unrolled");
   }
   if (notes.polygons_dropped > 0) {
     warnings.push_back(count(notes.polygons_dropped, "face", "faces") +

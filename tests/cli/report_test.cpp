@@ -172,6 +172,19 @@ TEST_F(Report, CutFileIsNotLossless) {
   EXPECT_EQ(Run({"verify", Path("cut.folp"), "--json"}).exit_code, 4);
 }
 
+TEST_F(Report, WhatIsNotKeptAsItWasIsAWarning) {
+  WriteText(Path("strip.ply"),
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+            "property float z\nproperty uchar red\nelement tristrips 1\n"
+            "property list int int vertex_indices\nend_header\n"
+            "0 0 0 9\n1 0 0 9\n0 1 0 9\n1 1 1 9\n8 0 1 2 3 -1 1 2 3\n");
+  const Outcome outcome = Run({"encode", Path("strip.ply"), "-o", Path("o.folp"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(
+      outcome.json().at("warnings"),
+      (std::vector<std::string>{"2 triangle strips unrolled", "properties not kept: vertex.red"}));
+}
+
 TEST_F(Report, UnreadableScanGivesThree) {
   WriteText(Path("bad.ply"), "ply\nformat binary_little_endian 1.0\nelement vertex 5\n");
   ExpectError({"encode", Path("bad.ply"), "-o", Path("o.folp")}, 3, "bad.ply");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/memory_file.h"
+
 namespace folprom::io {
 namespace {
 
@@ -140,7 +142,7 @@ std::vector<uint8_t> SampleSegment(const FileTable& table, size_t layer, size_t 
 
 std::vector<uint8_t> SampleFile(const FileTable& table) {
   std::vector<uint8_t> bytes;
-  return WriteContainerToMemory(table, [&](size_t layer, size_t subtree, SegmentPart part) {
+  return support::WrittenContainer(table, [&](size_t layer, size_t subtree, SegmentPart part) {
     bytes = SampleSegment(table, layer, subtree, part);
     return std::span<const uint8_t>(bytes);
   });

@@ -89,9 +89,11 @@ struct EncodeOptions {
   /// Positions come back bit for bit: floats and doubles, also -0.0, infinities and NaN. `bits` and
   /// `tolerance` are not used. Needs Offsets::kLattice.
   bool exact = false;
-  uint64_t memory_bytes = uint64_t{2} << 30;  ///< resident size to stay below; never alters bytes
-  std::string temporary_folder;               ///< empty: $TMPDIR or /tmp
-  bool overwrite = false;                     ///< may replace the output
+  /// Resident size to stay below; never alters bytes. The seams do not count their memory by it: a
+  /// thread holds the border records of a subtree and its lower neighbours.
+  uint64_t memory_bytes = uint64_t{2} << 30;
+  std::string temporary_folder;  ///< empty: $TMPDIR or /tmp
+  bool overwrite = false;        ///< may replace the output
 };
 
 /// CheckSettings of the codec, the ranges of `bits` and `tolerance`, and whether the options go

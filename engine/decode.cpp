@@ -1,6 +1,5 @@
 // Decoding, stage by stage.
 #include <algorithm>
-#include <numeric>
 
 #include "engine/decode_pipeline.h"
 #include "engine/folp_file.h"
@@ -17,7 +16,8 @@ size_t LayersFor(const FolpFile& file, const DecodeOptions& options) {
   const io::FileTable& table = file.table();
   size_t present = file.container().complete_layers();
   if (present == 0) {
-    throw Failure(ErrorKind::kCorrupt, "the file is cut before the end of its first layer");
+    throw Failure(ErrorKind::kCorrupt,
+                  file.container().name() + ": the file is cut before the end of its first layer");
   }
   auto last_that = [&](auto fits) {
     size_t count = 1;
@@ -70,8 +70,7 @@ DecodeSelection SelectionFor(const FolpFile& file, const DecodeOptions& options)
     }
     selection.wanted = SubtreesInBox(table, selection.layers, lo, hi);
   } else {
-    selection.wanted.resize(table.subtrees.size());
-    std::iota(selection.wanted.begin(), selection.wanted.end(), 0u);
+    selection.wanted = AllSubtrees(table);
   }
   return selection;
 }
@@ -119,7 +118,7 @@ class DecodeJob {
   void DecodeAll(DecodeReport* report) {
     const io::LayerRecord& layer = file_.table().layers[selection_.layers - 1];
     auto writer = MakeWriter(layer.vertices, layer.faces);
-    PlySink sink(file_.lattice(), layer, *writer);
+    PlySink sink(file_.lattice(), layer, file_.container().name(), *writer);
     Decode(sink);
     report->vertices = sink.vertices();
     report->faces = sink.faces();

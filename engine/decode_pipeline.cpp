@@ -1,6 +1,7 @@
 #include "engine/decode_pipeline.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "engine/codec/border_file.h"
@@ -146,6 +147,12 @@ class Pipeline {
 };
 
 }  // namespace
+
+std::vector<uint32_t> AllSubtrees(const io::FileTable& table) {
+  std::vector<uint32_t> all(table.subtrees.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
 
 std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, const double* lo,
                                     const double* hi) {

@@ -45,6 +45,7 @@ struct DecodeSelection {
   std::vector<uint32_t> wanted;  ///< subtrees to hand on, ascending; seams between them come too
 };
 
+std::vector<uint32_t> AllSubtrees(const io::FileTable& table);
 /// Every subtree that may have a representative in [lo, hi] (lattice coordinates as doubles) in the
 /// LOD of `layers` layers.
 std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, const double* lo,
@@ -53,11 +54,14 @@ std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, c
 /// neighbours.
 std::vector<uint32_t> NeededSubtrees(const io::FileTable& table,
                                      const std::vector<uint32_t>& wanted);
-/// Bytes of the file that the selection reads, the table included.
+/// Bytes of the table and of the segments that the selection decodes. To check them whole groups
+/// are read, and their checksums, which do not count here.
 uint64_t BytesNeeded(const io::ContainerReader& container, const DecodeSelection& selection);
 
 /// Peak memory follows `memory_bytes` and the largest subtree, not the mesh: border records wait in
-/// a spill folder below `temporary_folder`.
+/// a spill folder below `temporary_folder`. Seams do not look at `memory_bytes`: each thread holds
+/// the border records of one subtree and its lower neighbours, and up to 4 seams a thread wait as
+/// faces.
 void DecodeInto(const io::ContainerReader& container, const CodecParameters& parameters,
                 const DecodeSelection& selection, uint64_t memory_bytes,
                 const std::string& temporary_folder, parallel::Runner& runner,

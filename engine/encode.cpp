@@ -39,12 +39,12 @@ Result<EncodeReport> EncodeFile(const std::string& input, const std::string& out
     io::FileTable table = job.MakeTable();
     EncodeReport report;
     report.bytes = job.WriteFile(table, *out);
+    report.spill_bytes = job.PeakSpillBytes();
     out->Commit().value();
     report.vertices = table.vertices;
     report.faces = table.faces;
     report.subtrees = table.subtrees.size();
     report.layers = table.layers.size();
-    report.spill_bytes = job.spill().SizeBytes();
     report.bits = BitsOf(job.costs());
     report.warnings = job.Warnings();
     return report;

@@ -37,7 +37,7 @@ std::string InnerName(size_t subtree) { return "inner." + std::to_string(subtree
 std::string SeamName(size_t subtree) { return "seam." + std::to_string(subtree); }
 
 /// Sides of the box for which error bounds stay inside a float and steps above its finest.
-constexpr double kSmallestSide = 1e-280, kLargestSide = 1e37;
+constexpr double kSmallestSide = 1e-280, kLargestSide = kLargestTolerance;
 
 std::string Text(double value) {
   char text[32];
@@ -182,13 +182,18 @@ void EncodeJob::EncodeSubtrees(bool keep_order) {
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
     return scan_->summary(a).vertices > scan_->summary(b).vertices;
   });
+  std::vector<uint64_t> first_vertex(1, 0);
+  for (size_t s = 0; s < outcomes_.size(); ++s) {
+    first_vertex.push_back(first_vertex.back() + scan_->summary(s).vertices);
+  }
+  if (keep_order) order_.emplace(*spill_, "order");
   progress_.StartStage("encode", source_->vertex_count());
   parallel::MemoryBudget budget(WorkingBytes(options_.memory_bytes) * 3 / 4);
   runner_.ForEach(order.size(), [&](size_t i) {
     size_t subtree = order[i];
     const SubtreeSummary& summary = scan_->summary(subtree);
-    progress_.ThrowIfCancelled();
     auto lease = budget.Acquire(EncodeSubtreeBytes(summary, parameters_));
+    progress_.ThrowIfCancelled();  // behind the wait: the job may have been cancelled meanwhile
     SubtreeChunk chunk = scan_->Load(subtree);
     EncodedSubtree encoded =
         EncodeSubtree(chunk, summary, static_cast<uint32_t>(subtree), parameters_);
@@ -205,9 +210,7 @@ void EncodeJob::EncodeSubtrees(bool keep_order) {
       SpillBorder(*spill_, static_cast<uint32_t>(subtree), encoded.border, encoded.border_vertices);
     }
     if (keep_order) {
-      auto bytes = std::as_bytes(std::span(encoded.final_vertices));
-      io::WriteSpillFile(*spill_, "order." + std::to_string(subtree),
-                         {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+      order_->WriteRecords<uint32_t>(first_vertex[subtree], encoded.final_vertices);
     }
     progress_.Advance(summary.vertices);
   });
@@ -338,7 +341,7 @@ uint64_t EncodeJob::WriteFile(const io::FileTable& table, io::AtomicFile& out) {
         uint32_t stored = kept_layers_[layer];
         if (sizes[stored] == 0) return {};
         std::string name = inner ? InnerName(subtree) : SeamName(subtree);
-        mapped = io::MappedFile::Open(spill_->File(name)).value();
+        mapped = io::MapSpillFile(spill_->File(name));
         return mapped.bytes().subspan(begins(sizes)[stored], sizes[stored]);
       },
       out);
@@ -353,6 +356,9 @@ std::vector<std::string> EncodeJob::Warnings() const {
   if (notes.polygons_triangulated > 0) {
     warnings.push_back(count(notes.polygons_triangulated, "polygon", "polygons") +
                        " cut into triangles");
+  }
+  if (notes.strips > 0) {
+    warnings.push_back(count(notes.strips, "triangle strip", "triangle strips") + " unrolled");
   }
   if (notes.polygons_dropped > 0) {
     warnings.push_back(count(notes.polygons_dropped, "face", "faces") +

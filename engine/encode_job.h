@@ -1,13 +1,16 @@
 // The stages of an encoding as one object per job; encode.cpp and verify.cpp call them in order.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/codec/encode_subtree.h"
 #include "engine/codec/parameters.h"
 #include "engine/mesh/lattice.h"
+#include "engine/partition/offset_file.h"
 #include "engine/partition/partition.h"
 #include "folprom/folprom.h"
 #include "io/container/file_table.h"
@@ -39,8 +42,10 @@ class EncodeJob {
   /// The lattice of an existing file instead of the scan's own (verify).
   void UseResolution(const Resolution& resolution) { resolution_ = resolution; }
   void Partition();
-  /// keep_order: spill the final index of each vertex as "order.<subtree>".
+  /// keep_order: keep the final index of each vertex for MapOrder.
   void EncodeSubtrees(bool keep_order);
+  /// Subtree by subtree, the index that each vertex gets in its subtree, as uint32_t.
+  io::MappedFile MapOrder() const { return order_->Map(); }
   void EncodeSeams();
   io::FileTable MakeTable();
   uint64_t WriteFile(const io::FileTable& table, io::AtomicFile& out);
@@ -52,6 +57,10 @@ class EncodeJob {
   const io::MeshSource& source() const { return *source_; }
   const PartitionedScan& scan() const { return *scan_; }
   const io::SpillDirectory& spill() const { return *spill_; }
+  /// Most bytes that the spill folder has held so far. Nothing is removed after the partition.
+  uint64_t PeakSpillBytes() const {
+    return std::max(spill_->SizeBytes(), scan_ ? scan_->peak_spill_bytes() : 0);
+  }
   std::vector<std::string> Warnings() const;
 
  private:
@@ -80,6 +89,7 @@ class EncodeJob {
   CodecParameters parameters_;
   std::unique_ptr<PartitionedScan> scan_;
   std::vector<Outcome> outcomes_;
+  std::optional<partition::OffsetFile> order_;
   CostMeters costs_;
   std::vector<uint32_t> kept_layers_;
 };

@@ -37,7 +37,8 @@ struct MemoryDecoder::Impl {
     for (const SeamReader& seam : seams) faces += seam.state().face_count();
     const io::LayerRecord& layer = container.table().layers[decoded];
     if (vertices != layer.vertices || faces != layer.faces) {
-      throw Failure(ErrorKind::kCorrupt, "decoded counts differ from those of the table");
+      throw Failure(ErrorKind::kCorrupt,
+                    container.name() + ": decoded counts differ from those of the table");
     }
   }
 

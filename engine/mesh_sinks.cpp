@@ -10,10 +10,6 @@ namespace {
 constexpr uint64_t kOutside = ~uint64_t{0};
 constexpr size_t kFacesPerWrite = 65536;
 
-[[noreturn]] void ThrowCountsDiffer() {
-  throw Failure(ErrorKind::kCorrupt, "decoded counts differ from those of the table");
-}
-
 /// Entry `subtree` of a table that grows as subtrees arrive.
 template <class T>
 std::vector<T>& EntryFor(std::vector<std::vector<T>>& table, uint32_t subtree) {
@@ -55,9 +51,9 @@ void PlySink::AddSubtree(const SubtreePart& part) {
   for (uint32_t vertex : part.border_vertices) border.push_back(vertices_ + vertex);
   for (const Face& f : part.faces) {
     triangles_.push_back({vertices_ + f[0], vertices_ + f[1], vertices_ + f[2]});
-    if (triangles_.size() == kFacesPerWrite) Flush(&triangles_);
+    if (triangles_.size() == kFacesPerWrite) Flush();
   }
-  Flush(&triangles_);
+  Flush();
   vertices_ += part.positions.size();
 }
 
@@ -67,14 +63,18 @@ void PlySink::AddSeam(std::span<const SeamFace> faces) {
     for (size_t i = 0; i < 3; ++i) triangle[i] = border_[f[i].subtree][f[i].border];
     triangles_.push_back(triangle);
   }
-  Flush(&triangles_);
+  Flush();
 }
 
-void PlySink::Flush(std::vector<io::Triangle>* triangles) {
-  if (triangles->size() > expected_.faces - faces_) ThrowCountsDiffer();
-  writer_.AppendFaces(*triangles).value();
-  faces_ += triangles->size();
-  triangles->clear();
+void PlySink::Flush() {
+  if (triangles_.size() > expected_.faces - faces_) ThrowCountsDiffer();
+  writer_.AppendFaces(triangles_).value();
+  faces_ += triangles_.size();
+  triangles_.clear();
+}
+
+void PlySink::ThrowCountsDiffer() const {
+  throw Failure(ErrorKind::kCorrupt, input_ + ": decoded counts differ from those of the table");
 }
 
 void PlySink::CheckComplete() const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/decode_pipeline.h"
@@ -19,9 +20,11 @@ namespace folprom {
 /// Writes every part straight to its place in the output.
 class PlySink final : public MeshSink {
  public:
-  /// expected: counts for which the writer was made. More, or at the end fewer, is kCorrupt.
-  PlySink(const Lattice& lattice, const io::LayerRecord& expected, io::PlyWriter& writer)
-      : lattice_(lattice), expected_(expected), writer_(writer) {}
+  /// expected: counts for which the writer was made. More, or at the end fewer, is kCorrupt;
+  /// `input` is the file that the message names.
+  PlySink(const Lattice& lattice, const io::LayerRecord& expected, std::string input,
+          io::PlyWriter& writer)
+      : lattice_(lattice), expected_(expected), input_(std::move(input)), writer_(writer) {}
   void CheckComplete() const;
   void AddSubtree(const SubtreePart& part) override;
   void AddSeam(std::span<const SeamFace> faces) override;
@@ -29,9 +32,11 @@ class PlySink final : public MeshSink {
   uint64_t faces() const { return faces_; }
 
  private:
-  void Flush(std::vector<io::Triangle>* triangles);
+  void Flush();
+  [[noreturn]] void ThrowCountsDiffer() const;
   Lattice lattice_;
   io::LayerRecord expected_;
+  std::string input_;
   io::PlyWriter& writer_;
   uint64_t vertices_ = 0, faces_ = 0;
   std::vector<std::vector<uint64_t>> border_;  ///< per subtree: output index of each border set

@@ -1,6 +1,7 @@
 // The border between exceptions inside the engine and Results outside.
 #pragma once
 
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -9,7 +10,7 @@
 
 namespace folprom {
 
-/// Calls work() and turns what it throws into an Error.
+/// Calls work() and turns what it throws into an Error: kInternal where nothing else fits.
 template <class T, class Work>
 Result<T> RunGuarded(Work work) {
   try {
@@ -20,6 +21,8 @@ Result<T> RunGuarded(Work work) {
     return Error{ErrorKind::kInterrupted, "interrupted"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::kLimit, "out of memory"};
+  } catch (const std::exception& error) {
+    return Error{ErrorKind::kInternal, error.what()};
   }
 }
 

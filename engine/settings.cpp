@@ -122,6 +122,15 @@ Result<void> CheckSettings(const CodecSettings& settings) {
 }
 
 Result<void> CheckOptions(const EncodeOptions& options) {
+  if (options.bits < 1 || options.bits > 24) {
+    return Error{ErrorKind::kUsage,
+                 "bits is " + std::to_string(options.bits) + ", must be 1 .. 24"};
+  }
+  // Negated, so that NaN fails.
+  if (!(options.tolerance >= 0 && options.tolerance <= kLargestTolerance)) {
+    return Error{ErrorKind::kUsage, "tolerance is " + NumberText(options.tolerance) +
+                                        ", must be 0 .. " + NumberText(kLargestTolerance)};
+  }
   if (options.exact && options.codec.offsets != Offsets::kLattice) {
     return Error{ErrorKind::kUsage,
                  "exact needs offsets = \"lattice\" and hierarchy = \"quadric\", as "

@@ -3,8 +3,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <mutex>
-#include <numeric>
+#include <limits>
 
 #include "engine/decode_pipeline.h"
 #include "engine/encode_job.h"
@@ -19,15 +18,17 @@ namespace folprom {
 namespace {
 
 DecodeSelection Everything(const FolpFile& file) {
-  DecodeSelection selection;
-  selection.layers = file.table().layers.size();
-  selection.wanted.resize(file.table().subtrees.size());
-  std::iota(selection.wanted.begin(), selection.wanted.end(), 0u);
-  return selection;
+  return {file.table().layers.size(), AllSubtrees(file.table())};
 }
 
 /// The value that a file of floats gives back.
 double AsFloat(double value) { return WidenFloat(std::bit_cast<float>(NarrowToFloatBits(value))); }
+
+/// Infinite where either is not finite: a NaN would be lost among the errors of other vertices.
+double ErrorOf(double value, double original) {
+  const double error = std::fabs(value - original);
+  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+}
 
 /// Hash of a face by the indices of its vertices, the same for every rotation.
 uint64_t HashFace(std::array<uint64_t, 3> face) {
@@ -39,19 +40,16 @@ uint64_t HashFace(std::array<uint64_t, 3> face) {
   return io::XxHash64({reinterpret_cast<const uint8_t*>(best.data()), sizeof best});
 }
 
-/// Spills decoded positions, model units, per subtree and sums the faces by their decoded vertex
-/// indices.
+/// Spills decoded positions, model units, and sums the faces by their decoded vertex indices.
 class MatchSink final : public MeshSink {
  public:
   MatchSink(const Lattice& lattice, const io::SpillDirectory& spill)
-      : digest(lattice), lattice_(lattice), spill_(spill) {}
+      : digest(lattice), lattice_(lattice), positions_(spill, "decoded", 1, uint64_t{1} << 20) {}
   void AddSubtree(const SubtreePart& part) override {
     digest.AddSubtree(part);
     std::vector<ExactPosition> xyz(part.positions.size());
     for (size_t v = 0; v < xyz.size(); ++v) xyz[v] = part.Position(lattice_, v);
-    io::WriteSpillFile(
-        spill_, "decoded." + std::to_string(part.subtree),
-        {reinterpret_cast<const uint8_t*>(xyz.data()), xyz.size() * sizeof(ExactPosition)});
+    positions_.Append(0, xyz.data(), xyz.size() * sizeof(ExactPosition));
     base.push_back(vertices_);
     border_.emplace_back(part.border_vertices.begin(), part.border_vertices.end());
     for (const Face& f : part.faces) {
@@ -65,13 +63,19 @@ class MatchSink final : public MeshSink {
     for (const SeamFace& f : faces) face_sum += HashFace({index(f[0]), index(f[1]), index(f[2])});
   }
 
+  /// All positions, in the order of the decoded mesh. No part after it.
+  io::MappedFile MapPositions() {
+    positions_.Finish();
+    return positions_.Map(0);
+  }
+
   DigestSink digest;
-  std::vector<uint64_t> base;
+  std::vector<uint64_t> base;  ///< per subtree: its first vertex
   uint64_t face_sum = 0;
 
  private:
   Lattice lattice_;
-  const io::SpillDirectory& spill_;
+  io::SpillStreams positions_;
   uint64_t vertices_ = 0;
   std::vector<std::vector<uint32_t>> border_;
 };
@@ -108,9 +112,13 @@ class Comparison {
       report->reason = "the decoded mesh differs from the digest in the file";
       return;
     }
-    if (!MapFiles(report) || !IsOneToOne(report)) return;
+    if (!AreSubtreesAlike(sink, report)) return;
+    first_vertex_ = sink.base;
+    order_ = job_.MapOrder();
+    decoded_ = sink.MapPositions();
+    if (!IsOneToOne(report)) return;
     ComparePositions(report);
-    if (report->reason.empty()) CompareFaces(sink, report);
+    if (report->reason.empty()) CompareFaces(sink.face_sum, report);
   }
 
  private:
@@ -123,33 +131,30 @@ class Comparison {
     return encode;
   }
 
-  bool MapFiles(VerifyReport* report) {
+  /// Both with the subtrees of the table, so that one index finds a vertex in scan and mesh.
+  bool AreSubtreesAlike(const MatchSink& sink, VerifyReport* report) const {
     const io::FileTable& table = file_.table();
     size_t count = table.vertices == 0 ? 0 : job_.scan().subtree_count();
     bool alike = count == table.subtrees.size();
+    uint64_t vertices = 0;
     for (size_t s = 0; alike && s < count; ++s) {
-      alike = job_.scan().summary(s).vertices == table.subtrees[s].vertices;
+      alike =
+          job_.scan().summary(s).vertices == table.subtrees[s].vertices && sink.base[s] == vertices;
+      vertices += table.subtrees[s].vertices;
     }
-    if (!alike) {
+    if (!alike || sink.digest.vertices() != table.vertices) {
       report->reason = "the scan falls into other subtrees than the file: it is not the same scan";
       return false;
-    }
-    for (size_t s = 0; s < count; ++s) {
-      auto open = [&](const char* name) {
-        return io::MappedFile::Open(job_.spill().File(name + std::to_string(s))).value();
-      };
-      order_.push_back(open("order."));
-      decoded_.push_back(open("decoded."));
     }
     return true;
   }
 
   bool IsOneToOne(VerifyReport* report) const {
-    for (const io::MappedFile& file : order_) {
-      std::span<const uint32_t> order = io::MappedArray<uint32_t>(file);
-      std::vector<bool> taken(order.size(), false);
-      for (uint32_t vertex : order) {
-        if (vertex >= order.size() || taken[vertex]) {
+    for (size_t s = 0; s < first_vertex_.size(); ++s) {
+      const uint32_t count = file_.table().subtrees[s].vertices;
+      std::vector<bool> taken(count, false);
+      for (uint32_t vertex : io::MappedArray<uint32_t>(order_).subspan(first_vertex_[s], count)) {
+        if (vertex >= count || taken[vertex]) {
           report->reason = "the vertices of scan and file do not match one to one";
           return false;
         }
@@ -160,13 +165,15 @@ class Comparison {
   }
 
   void DropResident() const {
-    for (const auto& file : order_) file.DropResident();
-    for (const auto& file : decoded_) file.DropResident();
+    order_.DropResident();
+    decoded_.DropResident();
     job_.source().DropResident();
   }
 
-  uint32_t FinalVertex(const VertexRef& ref) const {
-    return io::MappedArray<uint32_t>(order_[ref.subtree])[ref.local];
+  /// Number, in the decoded mesh, of the vertex that one of the scan became.
+  uint64_t FinalVertex(const VertexRef& ref) const {
+    const uint64_t first = first_vertex_[ref.subtree];
+    return first + io::MappedArray<uint32_t>(order_)[first + ref.local];
   }
 
   void ComparePositions(VerifyReport* report) {
@@ -183,33 +190,31 @@ class Comparison {
       uint64_t first = source.vertex_block_begin(b);
       for (size_t i = 0; i < xyz.size() / 3; ++i) {
         const VertexRef& ref = job_.scan().vertex_map()[first + i];
-        const ExactPosition& p =
-            io::MappedArray<ExactPosition>(decoded_[ref.subtree])[FinalVertex(ref)];
+        const ExactPosition& p = io::MappedArray<ExactPosition>(decoded_)[FinalVertex(ref)];
         for (size_t axis = 0; axis < 3; ++axis) {
           const double value = as_float ? AsFloat(p[axis]) : p[axis], original = xyz[3 * i + axis];
           if (std::bit_cast<uint64_t>(value) == std::bit_cast<uint64_t>(original)) continue;
           same_bits = false;
-          double error = std::fabs(value - original);
-          if (!(error <= largest[b])) largest[b] = error;
+          largest[b] = std::max(largest[b], ErrorOf(value, original));
         }
       }
       if (b % 64 == 63) DropResident();
       progress_.Advance(1);
     });
     for (double error : largest) {
-      if (!(error <= report->max_position_error)) report->max_position_error = error;
+      report->max_position_error = std::max(report->max_position_error, error);
     }
     if (file_.lattice().exact) {
       if (!same_bits) report->reason = "a coordinate differs from that of the scan in its bits";
       return;
     }
     // The last digits of the subtraction itself are no error of the coder.
-    if (!(report->max_position_error <= report->tolerance * (1 + 1e-9))) {
+    if (report->max_position_error > report->tolerance * (1 + 1e-9)) {
       report->reason = "a position is off by more than the tolerance";
     }
   }
 
-  void CompareFaces(const MatchSink& sink, VerifyReport* report) {
+  void CompareFaces(uint64_t face_sum, VerifyReport* report) {
     const io::MeshSource& source = job_.source();
     std::atomic<uint64_t> sum{0};
     size_t blocks = source.triangle_block_count();
@@ -221,8 +226,7 @@ class Comparison {
       for (const io::Triangle& t : triangles) {
         std::array<uint64_t, 3> face;
         for (size_t i = 0; i < 3; ++i) {
-          const VertexRef& ref = job_.scan().vertex_map()[t[i]];
-          face[i] = sink.base[ref.subtree] + FinalVertex(ref);
+          face[i] = FinalVertex(job_.scan().vertex_map()[t[i]]);
         }
         part += HashFace(face);
       }
@@ -230,14 +234,16 @@ class Comparison {
       if (b % 64 == 63) DropResident();
       progress_.Advance(1);
     });
-    if (sum != sink.face_sum) report->reason = "the faces of scan and file differ";
+    if (sum != face_sum) report->reason = "the faces of scan and file differ";
   }
 
   const FolpFile& file_;
   parallel::Runner& runner_;
   parallel::Progress& progress_;
   EncodeJob job_;
-  std::vector<io::MappedFile> order_, decoded_;
+  // One file each for all subtrees: a process may map 65,530.
+  io::MappedFile order_, decoded_;
+  std::vector<uint64_t> first_vertex_;  ///< of each subtree
 };
 
 void CompareDigest(const FolpFile& file, const DecodeOptions& options, parallel::Runner& runner,

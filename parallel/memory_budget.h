@@ -31,7 +31,6 @@ class MemoryBudget {
   /// not ask again while it holds a Lease, and in Runner::Ordered a Lease must end with produce():
   /// held until consume() it could keep a lower index, and so itself, waiting for ever.
   Lease Acquire(uint64_t bytes);
-  uint64_t limit() const { return limit_; }
   uint64_t in_use() const;
 
  private:

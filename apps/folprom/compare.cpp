@@ -30,17 +30,6 @@ struct CompareFlags {
   std::optional<uint64_t> samples;
 };
 
-Json DirectionJson(const DistanceStatistics& statistics, double diagonal) {
-  // A single point has no size that a distance could be a part of.
-  const auto relative = [&](double x) { return diagonal > 0 ? Json(x / diagonal) : Json(nullptr); };
-  return {{"mean", statistics.mean},
-          {"rms", statistics.rms},
-          {"max", statistics.max},
-          {"mean_relative", relative(statistics.mean)},
-          {"rms_relative", relative(statistics.rms)},
-          {"max_relative", relative(statistics.max)}};
-}
-
 std::string DirectionText(const char* direction, const DistanceStatistics& statistics,
                           double diagonal) {
   const auto column = [&](double x) {
@@ -53,8 +42,8 @@ std::string DirectionText(const char* direction, const DistanceStatistics& stati
 
 void PrintReport(const CompareFlags& flags, const Comparison& comparison, double seconds) {
   if (flags.common.json) {
-    PrintJson({{"forward", DirectionJson(comparison.forward, comparison.diagonal)},
-               {"backward", DirectionJson(comparison.backward, comparison.diagonal)},
+    PrintJson({{"forward", DistanceJson(comparison.forward, comparison.diagonal)},
+               {"backward", DistanceJson(comparison.backward, comparison.diagonal)},
                {"diagonal", comparison.diagonal},
                {"samples", comparison.samples},
                {"seconds", seconds},

@@ -47,7 +47,7 @@ std::vector<Key> Keys(EncodeConfig& config) {
        "the lattice has 2^bits - 1 steps along the longest side; used where tolerance is 0", "bits",
        1, 24},
       {"encode", "tolerance", &o.tolerance, "largest error per axis; 0: from bits", "model units",
-       0, kNoLimit},
+       0, kLargestTolerance},
       {"encode", "exact", &o.exact,
        "positions come back bit for bit, whatever bits and tolerance are; needs offsets = "
        "\"lattice\"",
@@ -216,7 +216,10 @@ class ConfigReader {
 
   void ReadValue(const Key& key, const toml::node& node, double* value) const {
     if (!node.is_number()) WrongType(key, node, "a number");
-    *value = InRange(key, node, *node.value<double>());
+    // node.value<double>() has nothing for an integer that a double does not hold exactly.
+    const double number = node.is_integer() ? static_cast<double>(node.as_integer()->get())
+                                            : node.as_floating_point()->get();
+    *value = InRange(key, node, number);
   }
 
   void ReadValue(const Key& key, const toml::node& node, uint32_t* value) const {

@@ -88,29 +88,17 @@ std::optional<double> Relative(double distance, const Comparison& comparison) {
   return std::nullopt;
 }
 
-Json StatisticsJson(const DistanceStatistics& statistics, const Comparison& comparison) {
-  const auto relative = [&](double distance) {
-    const auto part = Relative(distance, comparison);
-    return part ? Json(*part) : Json(nullptr);
-  };
-  return {{"mean", statistics.mean},
-          {"rms", statistics.rms},
-          {"max", statistics.max},
-          {"mean_relative", relative(statistics.mean)},
-          {"rms_relative", relative(statistics.rms)},
-          {"max_relative", relative(statistics.max)}};
-}
-
 Json PointJson(const RatePoint& point) {
+  const double diagonal = point.comparison.diagonal;
   Json json = {{"bits_per_vertex", point.bits_per_vertex},
                {"requested", point.requested},
                {"bytes", point.bytes},
                {"layers", point.layers},
                {"vertices", point.vertices},
                {"faces", point.faces}};
-  json.update(StatisticsJson(LargerOf(point.comparison), point.comparison));
-  json["forward"] = StatisticsJson(point.comparison.forward, point.comparison);
-  json["backward"] = StatisticsJson(point.comparison.backward, point.comparison);
+  json.update(DistanceJson(LargerOf(point.comparison), diagonal));
+  json["forward"] = DistanceJson(point.comparison.forward, diagonal);
+  json["backward"] = DistanceJson(point.comparison.backward, diagonal);
   return json;
 }
 

@@ -21,6 +21,16 @@ void PrintJson(const Json& object) {
   Print(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+Json DistanceJson(const DistanceStatistics& statistics, double diagonal) {
+  const auto relative = [&](double x) { return diagonal > 0 ? Json(x / diagonal) : Json(nullptr); };
+  return {{"mean", statistics.mean},
+          {"rms", statistics.rms},
+          {"max", statistics.max},
+          {"mean_relative", relative(statistics.mean)},
+          {"rms_relative", relative(statistics.rms)},
+          {"max_relative", relative(statistics.max)}};
+}
+
 std::string Grouped(uint64_t number) {
   std::string text = std::to_string(number);
   for (size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "folprom/measure.h"
+
 namespace folprom::cli {
 
 /// Keeps the keys in the order in which they were set.
@@ -13,6 +15,10 @@ using Json = nlohmann::ordered_json;
 /// Writes to standard output; kOutput where it does not take all of it.
 void Print(const std::string& text);
 void PrintJson(const Json& object);
+
+/// Mean, rms and max in model units and as parts of the diagonal, null for a single point, which
+/// has no size that a distance could be a part of.
+Json DistanceJson(const DistanceStatistics& statistics, double diagonal);
 
 /// "1,234,567"
 std::string Grouped(uint64_t number);

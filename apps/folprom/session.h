@@ -13,8 +13,8 @@
 
 namespace folprom::cli {
 
-/// Lives while a verb works. SIGINT and SIGTERM cancel its progress; a second one ends the program
-/// at once. One at a time.
+/// Lives while a verb works. SIGINT, SIGTERM and SIGHUP cancel its progress; a second one ends the
+/// program at once. SIGXFSZ is ignored, so that writing fails instead. One at a time.
 class Session {
  public:
   explicit Session(const CommonFlags& flags);

@@ -26,7 +26,7 @@ class SurfaceSink {
 class SynthSurface {
  public:
   static constexpr uint64_t kMinVertices = 4;
-  static constexpr uint64_t kMaxVertices = uint64_t{1} << 36;
+  static constexpr uint64_t kMaxVertices = (uint64_t{1} << 32) - 1;  ///< as a PLY file can index
 
   /// First pass: counts what the holes take, and gives the rest to the last component, so that
   /// there are exactly `vertices` (kMinVertices .. kMaxVertices).

@@ -3,8 +3,6 @@
 #include <cstring>
 #include <type_traits>
 
-#include "io/files/mapped_file.h"
-
 namespace folprom {
 namespace {
 
@@ -45,7 +43,7 @@ void SpillBorder(const io::SpillDirectory& spill, uint32_t subtree, const Border
 }
 
 BorderFile LoadBorder(const io::SpillDirectory& spill, uint32_t subtree) {
-  io::MappedFile file = io::MappedFile::Open(spill.File(NameOf(subtree))).value();
+  const io::MappedFile file = io::MapSpillFile(spill.File(NameOf(subtree)));
   const uint8_t* cursor = file.bytes().data();
   BorderFile border;
   std::vector<Int3> root;

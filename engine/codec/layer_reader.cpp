@@ -9,24 +9,26 @@
 namespace folprom {
 namespace {
 
+/// work() decodes the segment; what it finds wrong gets the file and the place before it.
 template <class Work>
-void NamingPlace(const char* part, size_t subtree, size_t layer, Work work) {
+void DecodeSegment(const io::ContainerReader& container, size_t layer, size_t subtree,
+                   io::SegmentPart part, BitDecoder* bits, Work work) {
+  bits->StartSegment(container.Segment(layer, subtree, part).value());
   try {
     work();
+    bits->FinishSegment();
   } catch (const Failure& failure) {
     if (failure.error().kind != ErrorKind::kCorrupt) throw;
-    throw Failure(ErrorKind::kCorrupt, std::string(part) + " " + std::to_string(subtree) +
-                                           ", layer " + std::to_string(layer) + ": " +
-                                           failure.error().message);
+    throw Failure(ErrorKind::kCorrupt,
+                  container.PlaceOf(layer, subtree, part) + failure.error().message);
   }
 }
 
 /// What the table says of an exact lattice; origin and unit must be those of its step.
 void CompleteExact(const io::FileTable& table, ExactLattice* exact) {
   ExactStep& step = exact->step;
-  const auto type = static_cast<io::ScalarType>(table.coordinate_type);
-  step.is_float = type == io::ScalarType::kFloat32;
-  bool agrees = (step.is_float || type == io::ScalarType::kFloat64) && table.unit == step.Unit();
+  step.is_float = static_cast<io::ScalarType>(table.coordinate_type) == io::ScalarType::kFloat32;
+  bool agrees = table.unit == step.Unit();
   for (size_t axis = 0; agrees && axis < 3; ++axis) {
     const double first = std::floor(step.Scaled(table.origin[axis]) + 0.5);
     agrees = std::fabs(first) <= static_cast<double>(ExactLattice::kLargestWhole);
@@ -59,6 +61,13 @@ CodecParameters ParametersOf(const io::FileTable& table) {
                   "the coder's settings announce " + std::to_string(parameters.schedule.layers()) +
                       " layers, the table " + std::to_string(table.layers.size()));
   }
+  for (size_t s = 0; s < table.subtrees.size(); ++s) {
+    if (table.subtrees[s].vertices <= parameters.settings.subtree_vertices) continue;
+    throw Failure(ErrorKind::kCorrupt, "subtree " + std::to_string(s) + " has " +
+                                           std::to_string(table.subtrees[s].vertices) +
+                                           " vertices, the coder's settings allow " +
+                                           std::to_string(parameters.settings.subtree_vertices));
+  }
   return parameters;
 }
 
@@ -81,12 +90,8 @@ SubtreeReader::SubtreeReader(const io::ContainerReader& container,
       coder_(parameters, ShapeOf(container.table(), subtree, has_border)) {}
 
 void SubtreeReader::DecodeLayer() {
-  size_t layer = coder_.layers_done();
-  NamingPlace("subtree", subtree_, layer, [&] {
-    bits_.StartSegment(container_.Segment(layer, subtree_, io::SegmentPart::kInner).value());
-    coder_.CodeLayer(bits_, nullptr, nullptr);
-    bits_.FinishSegment();
-  });
+  DecodeSegment(container_, coder_.layers_done(), subtree_, io::SegmentPart::kInner, &bits_,
+                [&] { coder_.CodeLayer(bits_, nullptr, nullptr); });
 }
 
 SeamReader::SeamReader(const io::ContainerReader& container, const CodecParameters& parameters,
@@ -96,11 +101,8 @@ SeamReader::SeamReader(const io::ContainerReader& container, const CodecParamete
       coder_(parameters, std::move(participants), container.table().faces) {}
 
 void SeamReader::DecodeLayer() {
-  NamingPlace("seam", owner_, layer_, [&] {
-    bits_.StartSegment(container_.Segment(layer_, owner_, io::SegmentPart::kSeam).value());
-    coder_.CodeLayer(bits_, nullptr, nullptr);
-    bits_.FinishSegment();
-  });
+  DecodeSegment(container_, layer_, owner_, io::SegmentPart::kSeam, &bits_,
+                [&] { coder_.CodeLayer(bits_, nullptr, nullptr); });
   ++layer_;
 }
 

@@ -25,7 +25,7 @@ class SubtreeReader {
  public:
   SubtreeReader(const io::ContainerReader& container, const CodecParameters& parameters,
                 size_t subtree, bool has_border);
-  /// Throws Failure kCorrupt that names subtree and layer.
+  /// Throws Failure kCorrupt that names file, layer and subtree.
   void DecodeLayer();
   const SubtreeCoder& state() const { return coder_; }
 

@@ -23,7 +23,8 @@ Int3 Lattice::FromModel(const double* xyz) const {
       continue;
     }
     const double steps = (xyz[axis] - origin[axis]) / unit;
-    const double clamped = std::min(std::max(steps, 0.0), static_cast<double>(extent[axis]));
+    // In this order of arguments NaN becomes 0.
+    const double clamped = std::min(std::max(0.0, steps), static_cast<double>(extent[axis]));
     k[axis] = static_cast<int32_t>(clamped);
     k[axis] += clamped - static_cast<double>(k[axis]) >= 0.5 ? 1 : 0;
   }

@@ -37,7 +37,8 @@ struct Lattice {
   std::array<double, 3> ToModel(const Int3& p) const {
     return {ToModel(0, p.x), ToModel(1, p.y), ToModel(2, p.z)};
   }
-  /// Nearest lattice point, clamped to the box; of an exact lattice the point that rests go by.
+  /// Nearest lattice point, clamped to the box, the first one for NaN; of an exact lattice the
+  /// point that rests go by.
   Int3 FromModel(const double* xyz) const;
 };
 

@@ -1,19 +1,15 @@
 // Pass 0: the bounding box.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <string>
+#include <vector>
 
-#include "engine/partition/block_pool.h"
 #include "engine/partition/partition.h"
-#include "engine/partition/resident_pages.h"
+#include "engine/partition/vertex_blocks.h"
 
 namespace folprom {
 namespace {
-
-// No memory limit is known here; small enough for any.
-constexpr uint64_t kResidentBytes = uint64_t{32} << 20;
 
 void ThrowAtFirstNotFinite(const io::MeshSource& source, uint64_t first_vertex,
                            const std::vector<double>& xyz) {
@@ -57,25 +53,17 @@ void Extend(Bounds* box, const Bounds& other) {
 Bounds MeasureBounds(const io::MeshSource& source, parallel::Runner& runner,
                      parallel::Progress& progress) {
   progress.StartStage("bounds", source.vertex_count());
-  partition::ResidentSource resident_source(source, kResidentBytes);
-  partition::BlockPool<std::vector<double>> pool;
   std::mutex mutex;
   Bounds bounds;
-  runner.ForEach(source.vertex_block_count(), [&](size_t block) {
-    std::vector<double>& xyz = pool.Begin(block);
-    source.ReadVertexBlock(block, &xyz).value();
-    if (!xyz.empty()) {
-      bool finite = true;
-      const Bounds box = BoundsOf(xyz, &finite);
-      if (!finite) ThrowAtFirstNotFinite(source, source.vertex_block_begin(block), xyz);
-      const std::lock_guard lock(mutex);
-      Extend(&bounds, box);
-    }
-    const uint64_t vertices = xyz.size() / 3;
-    pool.End(block);
-    resident_source.TouchedVertices(vertices);
-    progress.Advance(vertices);
-  });
+  const auto extend = [&](size_t block, const std::vector<double>& xyz) {
+    if (xyz.empty()) return;
+    bool finite = true;
+    const Bounds box = BoundsOf(xyz, &finite);
+    if (!finite) ThrowAtFirstNotFinite(source, source.vertex_block_begin(block), xyz);
+    const std::lock_guard lock(mutex);
+    Extend(&bounds, box);
+  };
+  partition::ForEachVertexBlock(source, runner, progress, extend);
   for (size_t axis = 0; axis < 3; ++axis) {
     // -0 and 0 compare equal, so which of them survives could depend on the order of the blocks.
     bounds.lo[axis] += 0.0;

@@ -5,14 +5,10 @@
 #include <mutex>
 #include <vector>
 
-#include "engine/partition/block_pool.h"
-#include "engine/partition/resident_pages.h"
+#include "engine/partition/vertex_blocks.h"
 
 namespace folprom {
 namespace {
-
-// No memory limit is known here; small enough for any.
-constexpr uint64_t kResidentBytes = uint64_t{32} << 20;
 
 void Count(size_t axis, double x, bool is_float, CoordinateCensus* census) {
   if (!IsTame(x)) return;
@@ -41,23 +37,6 @@ void Add(const CoordinateCensus& part, CoordinateCensus* census) {
   for (size_t i = 0; i < part.bits.size(); ++i) census->bits[i] += part.bits[i];
 }
 
-/// Calls work(xyz) with the coordinates of every block.
-template <class Work>
-void ForEachBlock(const io::MeshSource& source, parallel::Runner& runner,
-                  parallel::Progress& progress, Work work) {
-  partition::ResidentSource resident_source(source, kResidentBytes);
-  partition::BlockPool<std::vector<double>> pool;
-  runner.ForEach(source.vertex_block_count(), [&](size_t block) {
-    std::vector<double>& xyz = pool.Begin(block);
-    source.ReadVertexBlock(block, &xyz).value();
-    work(xyz);
-    const uint64_t vertices = xyz.size() / 3;
-    pool.End(block);
-    resident_source.TouchedVertices(vertices);
-    progress.Advance(vertices);
-  });
-}
-
 }  // namespace
 
 CoordinateCensus TakeCensus(const io::MeshSource& source, bool is_float, parallel::Runner& runner,
@@ -66,13 +45,14 @@ CoordinateCensus TakeCensus(const io::MeshSource& source, bool is_float, paralle
   std::mutex mutex;
   CoordinateCensus census;
   census.bounds = Nothing();
-  ForEachBlock(source, runner, progress, [&](const std::vector<double>& xyz) {
+  const auto take = [&](size_t, const std::vector<double>& xyz) {
     CoordinateCensus part;
     part.bounds = Nothing();
     for (size_t i = 0; i < xyz.size(); ++i) Count(i % 3, xyz[i], is_float, &part);
     const std::lock_guard lock(mutex);
     Add(part, &census);
-  });
+  };
+  partition::ForEachVertexBlock(source, runner, progress, take);
   for (size_t axis = 0; axis < 3; ++axis) {
     double &lo = census.bounds.lo[axis], &hi = census.bounds.hi[axis];
     if (lo > hi) lo = hi = 0;  // nothing tame on this axis
@@ -87,12 +67,13 @@ bool HasRests(const io::MeshSource& source, const Lattice& lattice, parallel::Ru
               parallel::Progress& progress) {
   progress.StartStage("lattice", source.vertex_count());
   std::atomic<bool> found = false;
-  ForEachBlock(source, runner, progress, [&](const std::vector<double>& xyz) {
+  const auto look = [&](size_t, const std::vector<double>& xyz) {
     for (size_t i = 0; i < xyz.size() && !found; ++i) {
       const size_t axis = i % 3;
       if (lattice.exact->Split(axis, lattice.extent[axis], xyz[i]).rest.digits > 0) found = true;
     }
-  });
+  };
+  partition::ForEachVertexBlock(source, runner, progress, look);
   return found;
 }
 

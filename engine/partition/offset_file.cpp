@@ -33,11 +33,7 @@ void OffsetFile::ReadAt(uint64_t offset, void* bytes, size_t size) const {
   }
 }
 
-io::MappedFile OffsetFile::Map() const {
-  Result<io::MappedFile> file = io::MappedFile::Open(path_);
-  if (!file) throw Failure(ErrorKind::kOutput, "temporary file " + file.error().message);
-  return std::move(file).value();
-}
+io::MappedFile OffsetFile::Map() const { return io::MapSpillFile(path_); }
 
 void OffsetFile::Remove() {
   if (::unlink(path_.c_str()) == 0) return;

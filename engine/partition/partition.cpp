@@ -51,6 +51,7 @@ class SpilledScan final : public PartitionedScan {
     ScatterFaces(job, records.Map(), vertex_map_, faces_, cross_faces_, subtrees_);
     faces_.Finish();
     cross_faces_.Finish();
+    peak_spill_bytes_ = job.spill.SizeBytes();
   }
 
   size_t subtree_count() const override { return subtrees_.size(); }
@@ -71,12 +72,7 @@ class SpilledScan final : public PartitionedScan {
     return chunk;
   }
 
-  void Remove(size_t subtree) override {
-    positions_.Remove(subtree);
-    faces_.Remove(subtree);
-    cross_faces_.Remove(subtree);
-    if (exact_) exact_->Remove(subtree);
-  }
+  uint64_t peak_spill_bytes() const override { return peak_spill_bytes_; }
 
   std::span<const VertexRef> vertex_map() const override {
     return io::MappedArray<VertexRef>(vertex_map_);
@@ -89,6 +85,7 @@ class SpilledScan final : public PartitionedScan {
   io::SpillStreams cross_faces_;
   std::optional<io::SpillStreams> exact_;
   io::MappedFile vertex_map_;
+  uint64_t peak_spill_bytes_ = 0;
 };
 
 std::unique_ptr<PartitionedScan> Run(Job& job) {

@@ -42,15 +42,15 @@ struct SubtreeSummary {
 };
 
 /// The scan after the partition. Subtree numbers follow the split tree, so neighbours in number are
-/// near in space. Load and Remove are thread-safe for different subtrees.
+/// near in space. Load is thread-safe.
 class PartitionedScan {
  public:
   virtual ~PartitionedScan() = default;
   virtual size_t subtree_count() const = 0;
   virtual const SubtreeSummary& summary(size_t subtree) const = 0;
   virtual SubtreeChunk Load(size_t subtree) const = 0;
-  /// Gives the disk space of a chunk back.
-  virtual void Remove(size_t subtree) = 0;
+  /// Bytes that the spill folder held before the passes removed what only they need.
+  virtual uint64_t peak_spill_bytes() const = 0;
   /// Input vertex index -> (subtree, local); mapped, in the order of the file.
   virtual std::span<const VertexRef> vertex_map() const = 0;
 };

@@ -46,7 +46,7 @@ struct LayerRecord {
 float NextErrorBound(double bound);
 
 struct SubtreeRecord {
-  uint32_t vertices = 0;            ///< of the original mesh
+  uint32_t vertices = 0;            ///< of the original mesh, at least 1
   std::array<int32_t, 3> box_lo{};  ///< working lattice
   std::array<int32_t, 3> box_hi{};
   /// Subtrees of lower number that share a face with it, ascending.
@@ -61,7 +61,7 @@ enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
 struct FileTable {
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  uint8_t coordinate_type = 0;      ///< io::ScalarType of the output
+  uint8_t coordinate_type = 6;      ///< io::ScalarType of the output: 6 float32, 7 float64
   std::array<double, 3> origin{};   ///< lattice
   double unit = 1;                  ///< lattice
   std::array<int32_t, 3> extent{};  ///< lattice, 0 .. 2^30 - 1

@@ -27,7 +27,8 @@ struct FileLayout {
   uint64_t file_bytes = 0;
 };
 
-/// `begin`: byte after the header. The table has no fault, so no position overflows.
+/// Takes as much memory for the places of the segments as the table for their sizes. `begin`: byte
+/// after the header. The table has no fault, so no position overflows.
 FileLayout LayoutOf(const FileTable& table, uint64_t begin);
 
 }  // namespace folprom::io

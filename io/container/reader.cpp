@@ -9,14 +9,6 @@
 #include "io/container/table_code.h"
 
 namespace folprom::io {
-namespace {
-
-std::string PlaceOf(size_t layer, size_t subtree, SegmentPart part) {
-  return ": layer " + std::to_string(layer) + ", subtree " + std::to_string(subtree) +
-         (part == SegmentPart::kInner ? ", inner segment: " : ", seam segment: ");
-}
-
-}  // namespace
 
 Result<ContainerReader> ContainerReader::Open(std::span<const uint8_t> bytes, std::string name) {
   try {
@@ -48,6 +40,11 @@ void ContainerReader::Load(std::span<const uint8_t> bytes, std::string name) {
   verified_.reset(new std::atomic<bool>[layout_.groups.size()]());
 }
 
+std::string ContainerReader::PlaceOf(size_t layer, size_t subtree, SegmentPart part) const {
+  return name_ + ": layer " + std::to_string(layer) + ", subtree " + std::to_string(subtree) +
+         (part == SegmentPart::kInner ? ", inner segment: " : ", seam segment: ");
+}
+
 size_t ContainerReader::GroupOf(uint64_t position) const {
   const auto& groups = layout_.groups;
   const auto after = std::upper_bound(
@@ -70,7 +67,7 @@ bool ContainerReader::Intact(size_t group) const {
 Result<std::span<const uint8_t>> ContainerReader::Segment(size_t layer, size_t subtree,
                                                           SegmentPart part) const {
   if (layer >= table_.layers.size() || subtree >= table_.subtrees.size()) {
-    return Error{ErrorKind::kInternal, name_ + PlaceOf(layer, subtree, part) + "does not exist"};
+    return Error{ErrorKind::kInternal, PlaceOf(layer, subtree, part) + "does not exist"};
   }
   const size_t index = table_.SegmentIndex(layer, subtree, part);
   const uint64_t begin = layout_.segment_begin[index];
@@ -79,12 +76,12 @@ Result<std::span<const uint8_t>> ContainerReader::Segment(size_t layer, size_t s
   const size_t group = GroupOf(begin);
   const auto [group_begin, group_end] = layout_.groups[group];
   if (group_end + kGroupChecksumBytes > bytes_.size()) {
-    return Error{ErrorKind::kCorrupt,
-                 name_ + PlaceOf(layer, subtree, part) + "the file is cut at byte " +
-                     std::to_string(bytes_.size()) + " of " + std::to_string(file_bytes())};
+    return Error{ErrorKind::kCorrupt, PlaceOf(layer, subtree, part) + "the file is cut at byte " +
+                                          std::to_string(bytes_.size()) + " of " +
+                                          std::to_string(file_bytes())};
   }
   if (!Intact(group)) {
-    return Error{ErrorKind::kCorrupt, name_ + PlaceOf(layer, subtree, part) + "checksum of bytes " +
+    return Error{ErrorKind::kCorrupt, PlaceOf(layer, subtree, part) + "checksum of bytes " +
                                           std::to_string(group_begin) + " to " +
                                           std::to_string(group_end) + " differs"};
   }

@@ -26,6 +26,9 @@ class ContainerReader {
   static Result<ContainerReader> Open(std::span<const uint8_t> bytes, std::string name);
 
   const FileTable& table() const { return table_; }
+  const std::string& name() const { return name_; }
+  /// "scan.folp: layer 3, subtree 5, inner segment: ", for messages.
+  std::string PlaceOf(size_t layer, size_t subtree, SegmentPart part) const;
   /// Layers whose segments and checksums are all inside the bytes (a cut file has fewer than the
   /// table).
   size_t complete_layers() const { return complete_layers_; }

@@ -8,12 +8,12 @@ namespace folprom::io {
 namespace {
 
 constexpr int32_t kMaxCoordinate = (1 << 30) - 1;
-constexpr uint8_t kScalarTypes = 8;
+constexpr uint8_t kFloat32 = 6, kFloat64 = 7;  // as io::ScalarType numbers them
 constexpr uint64_t kMaxSum = uint64_t{1} << 62;
 
 std::string LatticeFault(const FileTable& table) {
-  if (table.coordinate_type >= kScalarTypes) {
-    return "coordinate type " + std::to_string(table.coordinate_type) + " unknown";
+  if (table.coordinate_type != kFloat32 && table.coordinate_type != kFloat64) {
+    return "coordinate type " + std::to_string(table.coordinate_type) + ", must be 6 or 7";
   }
   for (const double origin : table.origin) {
     if (!std::isfinite(origin)) return "origin of the lattice not finite";
@@ -47,6 +47,7 @@ std::string LayersFault(const FileTable& table) {
 }
 
 std::string SubtreeFault(const SubtreeRecord& subtree, size_t number, const FileTable& table) {
+  if (subtree.vertices == 0) return "no vertices";
   for (size_t axis = 0; axis < 3; ++axis) {
     if (subtree.box_lo[axis] < 0 || subtree.box_hi[axis] > table.extent[axis]) {
       return "box outside the extent";

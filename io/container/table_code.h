@@ -19,8 +19,9 @@ std::string TableFault(const FileTable& table);
 std::vector<uint8_t> EncodeTable(const FileTable& table);
 
 /// Reads a table that must fill `bytes` exactly. `file` is used in messages, `offset` is the
-/// position of the first byte in it. Allocates at most 64 bytes per byte of table for the sizes.
-/// Failure kCorrupt naming file, place and reason.
+/// position of the first byte in it. Allocates at most 128 bytes per byte of table for the sizes: a
+/// bit may hold one, beside that of a seam segment which has none. Failure kCorrupt naming file,
+/// place and reason.
 FileTable DecodeTable(std::span<const uint8_t> bytes, std::string_view file, uint64_t offset);
 
 }  // namespace folprom::io

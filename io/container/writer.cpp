@@ -1,6 +1,7 @@
 #include "io/container/writer.h"
 
 #include <string>
+#include <vector>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -37,18 +38,6 @@ class BufferedFile {
   std::vector<uint8_t> buffer_;
 };
 
-class Memory {
- public:
-  void Reserve(uint64_t bytes) { bytes_.reserve(bytes); }
-  void Append(std::span<const uint8_t> bytes) {
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-  }
-  std::vector<uint8_t> Take() { return std::move(bytes_); }
-
- private:
-  std::vector<uint8_t> bytes_;
-};
-
 /// XXH3 over a group whose bytes come segment by segment.
 class GroupHash {
  public:
@@ -80,10 +69,13 @@ std::span<const uint8_t> CheckedSegment(const FileTable& table, const SegmentByt
           std::to_string(bytes.size()) + " bytes, the table says " + std::to_string(announced));
 }
 
-template <class Out>
-uint64_t WriteTo(const std::vector<uint8_t>& header, const FileLayout& layout,
-                 const FileTable& table, const SegmentBytes& segment, Out* out) {
-  out->Append(header);
+}  // namespace
+
+uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out) {
+  const std::vector<uint8_t> header = EncodeHeader(table);
+  const FileLayout layout = LayoutOf(table, header.size());
+  BufferedFile file(&out);
+  file.Append(header);
   uint64_t at = header.size();
   GroupHash hash;
   auto group = layout.groups.begin();
@@ -91,36 +83,18 @@ uint64_t WriteTo(const std::vector<uint8_t>& header, const FileLayout& layout,
     for (size_t subtree = 0; subtree < table.subtrees.size(); ++subtree) {
       for (const SegmentPart part : {SegmentPart::kInner, SegmentPart::kSeam}) {
         const auto bytes = CheckedSegment(table, segment, layer, subtree, part);
-        out->Append(bytes);
+        file.Append(bytes);
         hash.Add(bytes);
         at += bytes.size();
         if (bytes.empty() || at < group->end) continue;
-        out->Append(hash.Close());
+        file.Append(hash.Close());
         at += kGroupChecksumBytes;
         ++group;
       }
     }
   }
-  return at;
-}
-
-}  // namespace
-
-uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out) {
-  const std::vector<uint8_t> header = EncodeHeader(table);
-  BufferedFile file(&out);
-  const uint64_t bytes = WriteTo(header, LayoutOf(table, header.size()), table, segment, &file);
   file.Flush();
-  return bytes;
-}
-
-std::vector<uint8_t> WriteContainerToMemory(const FileTable& table, const SegmentBytes& segment) {
-  const std::vector<uint8_t> header = EncodeHeader(table);
-  const FileLayout layout = LayoutOf(table, header.size());
-  Memory memory;
-  memory.Reserve(layout.file_bytes);
-  WriteTo(header, layout, table, segment, &memory);
-  return memory.Take();
+  return at;
 }
 
 }  // namespace folprom::io

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include "folprom/result.h"
 #include "io/container/file_table.h"
@@ -24,8 +23,5 @@ using SegmentBytes =
 /// when the table contradicts itself or a segment is not as long as the table says; kLimit when the
 /// table takes 4 GiB or more; and what `segment` throws.
 uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out);
-
-/// The same into memory.
-std::vector<uint8_t> WriteContainerToMemory(const FileTable& table, const SegmentBytes& segment);
 
 }  // namespace folprom::io

@@ -1,7 +1,6 @@
 #include "io/files/atomic_file.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,7 +25,13 @@ Failure OutputFailure(const std::string& path, const std::string& reason) {
 std::optional<mode_t> CheckTarget(const std::string& path, bool force) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
-    if (errno == ENOENT) return std::nullopt;
+    const int reason = errno;
+    // Renaming would put the file in the place of the link, not of what it names.
+    if (reason == ENOENT && ::lstat(path.c_str(), &status) == 0 && S_ISLNK(status.st_mode)) {
+      throw OutputFailure(path, "is a symbolic link to a file that does not exist");
+    }
+    if (reason == ENOENT) return std::nullopt;
+    errno = reason;
     ThrowSystemError(ErrorKind::kOutput, path, "cannot be written");
   }
   if (S_ISDIR(status.st_mode)) throw OutputFailure(path, "is a directory");

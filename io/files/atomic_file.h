@@ -15,8 +15,8 @@ namespace folprom::io {
 /// output as it was. All errors are kOutput and name path and reason.
 class AtomicFile {
  public:
-  /// Fails when the target exists and `force` is false, is a directory, or its folder is missing or
-  /// not writable.
+  /// Fails when the target exists and `force` is false, is a directory or a symbolic link to
+  /// nothing, or its folder is missing or not writable.
   static Result<std::unique_ptr<AtomicFile>> Create(const std::string& path, bool force);
   virtual ~AtomicFile() = default;
   /// Appends at the end of what was appended so far.

@@ -85,9 +85,7 @@ void PlyAsciiCursor::Fail(const std::string& reason) const {
 }
 
 void PlyAsciiCursor::FailWord(std::string_view word, const char* what) const {
-  std::string quoted;
-  for (const char c : word.substr(0, 40)) quoted += c >= ' ' && c <= '~' ? c : '?';
-  Fail("\"" + quoted + "\" is " + what);
+  Fail(Quoted(word) + " is " + what);
 }
 
 }  // namespace folprom::io

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/formats/ply_place.h"
 #include "io/formats/ply_scalar.h"
 
 namespace folprom::io {
@@ -38,13 +39,6 @@ Words WordsOf(std::string_view line) {
     words.push_back(line.substr(begin, end - begin));
     line.remove_prefix(end);
   }
-}
-
-// Header text may be anything: control characters would garble a terminal.
-std::string Quoted(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text.substr(0, 60)) quoted += c >= ' ' && c <= '~' ? c : '?';
-  return quoted + (text.size() > 60 ? "...\"" : "\"");
 }
 
 class HeaderParser {
@@ -116,7 +110,7 @@ class HeaderParser {
   void ParseElement(const Words& words) {
     if (words.size() != 3) Fail("an element line has the form: element <name> <count>");
     PlyElement element;
-    element.name = words[1];
+    element.name = NameIn(words[1]);
     const std::string_view count = words[2];
     const auto [end, error] =
         std::from_chars(count.data(), count.data() + count.size(), element.count);
@@ -141,7 +135,7 @@ class HeaderParser {
     }
     PlyProperty property;
     property.is_list = is_list;
-    property.name = words.back();
+    property.name = NameIn(words.back());
     property.type = TypeOf(words[words.size() - 2]);
     if (is_list) {
       property.count_type = TypeOf(words[2]);
@@ -152,6 +146,14 @@ class HeaderParser {
            Quoted(header_.elements.back().name));
     }
     header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  /// The name of an element or property; it will stand in messages as it is.
+  std::string NameIn(std::string_view word) const {
+    const bool printable = std::ranges::all_of(word, [](char c) { return c >= '!' && c <= '~'; });
+    if (!printable)
+      Fail("the name " + Quoted(word) + " has a character that is not printable ASCII");
+    return std::string(word);
   }
 
   ScalarType TypeOf(std::string_view name) const {

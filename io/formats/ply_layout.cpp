@@ -28,7 +28,8 @@ std::optional<size_t> PropertyNamed(const PlyElement& element, std::string_view 
   return std::nullopt;
 }
 
-/// The type that holds all values of both.
+/// The larger type; float64 for float32 with 32-bit integers, which it would round. Of a signed and
+/// an unsigned type of one size either: what is written as float takes the values of both.
 ScalarType Wider(ScalarType a, ScalarType b) {
   using enum ScalarType;
   const auto is_int32 = [](ScalarType type) { return type == kInt32 || type == kUint32; };

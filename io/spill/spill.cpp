@@ -56,7 +56,16 @@ std::string SpillDirectory::File(const std::string& name) const {
 
 uint64_t SpillDirectory::SizeBytes() const {
   uint64_t bytes = 0;
-  for (const auto& entry : fs::directory_iterator(path_)) bytes += entry.file_size();
+  std::error_code error;
+  fs::directory_iterator entry(path_, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const uint64_t size = entry->file_size(error);
+    if (error) break;
+    bytes += size;
+  }
+  if (error) {
+    throw Failure(ErrorKind::kOutput, path_ + ": cannot read its size: " + error.message());
+  }
   return bytes;
 }
 
@@ -143,23 +152,14 @@ void SpillStreams::Finish() {
   impl_->free_buffers.clear();
 }
 
-uint64_t SpillStreams::size_bytes(size_t stream) const {
-  return impl_->streams[stream].written + impl_->streams[stream].used;
-}
-
 MappedFile SpillStreams::Map(size_t stream) const {
   if (impl_->streams[stream].written == 0) return {};
-  Result<MappedFile> file = MappedFile::Open(impl_->Path(stream));
-  if (!file) throw Failure(ErrorKind::kOutput, "temporary file " + file.error().message);
-  if (file->bytes().size() != impl_->streams[stream].written) {
+  MappedFile file = MapSpillFile(impl_->Path(stream));
+  if (file.bytes().size() != impl_->streams[stream].written) {
     throw Failure(ErrorKind::kOutput,
                   "temporary file " + impl_->Path(stream) + ": changed by someone else");
   }
-  return std::move(file).value();
-}
-
-void SpillStreams::Remove(size_t stream) {
-  if (impl_->streams[stream].written > 0) ::unlink(impl_->Path(stream).c_str());
+  return file;
 }
 
 void WriteSpillFile(const SpillDirectory& directory, const std::string& name,
@@ -168,6 +168,12 @@ void WriteSpillFile(const SpillDirectory& directory, const std::string& name,
   Descriptor file = OpenForWriting(path, O_TRUNC);
   WriteAll(file.get(), bytes, path);
   file.CloseChecked(path);
+}
+
+MappedFile MapSpillFile(const std::string& path) {
+  Result<MappedFile> file = MappedFile::Open(path);
+  if (!file) throw Failure(ErrorKind::kOutput, "temporary file " + file.error().message);
+  return std::move(file).value();
 }
 
 }  // namespace folprom::io

@@ -45,11 +45,8 @@ class SpillStreams {
   }
   /// Writes all buffers out. No Append after it.
   void Finish();
-  uint64_t size_bytes(size_t stream) const;
   /// After Finish: the stream mapped; an empty MappedFile where nothing was appended. Thread-safe.
   MappedFile Map(size_t stream) const;
-  /// After Finish: removes the stream's file to give the disk space back. Thread-safe.
-  void Remove(size_t stream);
 
  private:
   struct Impl;
@@ -59,6 +56,9 @@ class SpillStreams {
 /// Writes one whole file in the spill folder. Thread-safe for different names.
 void WriteSpillFile(const SpillDirectory& directory, const std::string& name,
                     std::span<const uint8_t> bytes);
+
+/// Maps a temporary file. A fault is one of the temporary disk: Failure kOutput with the path.
+MappedFile MapSpillFile(const std::string& path);
 
 /// A mapped file's bytes as an array of T. The size must be a multiple of sizeof(T).
 template <class T>

@@ -208,6 +208,8 @@ TEST_F(Config, ValuesOutOfRangeAreRejected) {
   ExpectRejected("[codec]\nmetric_b = nan\n", 2, "1 .. 64");
   ExpectRejected("[encode]\ntolerance = inf\n", 2, "tolerance");
   ExpectRejected("[encode]\ntolerance = -1\n", 2, "tolerance");
+  ExpectRejected("[encode]\ntolerance = 1e41\n", 2, "tolerance");
+  ExpectRejected("[codec]\nmetric_a = 9007199254740993\n", 2, "metric_a");
   ExpectRejected("[encode]\nbits = 0\n", 2, "1 .. 24");
   ExpectRejected("[encode]\nmemory = -5\n", 2, "encode.memory");
 }

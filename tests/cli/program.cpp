@@ -1,6 +1,8 @@
 #include "tests/cli/program.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -43,7 +45,7 @@ std::vector<std::string> CliTest::Files() const {
   return names;
 }
 
-pid_t CliTest::Start(const std::vector<std::string>& arguments) const {
+pid_t CliTest::Start(const std::vector<std::string>& arguments, uint64_t largest_file) const {
   const std::string out = (root_ / "out").string();
   const std::string err = (root_ / "err").string();
   WriteText(err, "");
@@ -56,6 +58,12 @@ pid_t CliTest::Start(const std::vector<std::string>& arguments) const {
   if (process != 0) return process;
   dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
   dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+  // Under nohup it is ignored, which a program inherits.
+  signal(SIGHUP, SIG_DFL);
+  if (largest_file > 0) {
+    const rlimit limit{largest_file, largest_file};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
   execv(argv[0], argv.data());
   _exit(127);
 }

@@ -33,7 +33,8 @@ class CliTest : public ::testing::Test {
   std::vector<std::string> Files() const;
 
   /// Starts the program; standard output and error go to files outside the folder.
-  pid_t Start(const std::vector<std::string>& arguments) const;
+  /// largest_file: bytes to which it may write a file, 0 for any number.
+  pid_t Start(const std::vector<std::string>& arguments, uint64_t largest_file = 0) const;
   /// Standard error of the program so far.
   std::string ErrorsSoFar() const;
   Outcome Wait(pid_t process) const;

@@ -1,5 +1,7 @@
 // What encode, decode, info and verify print, and their exit codes on good and bad files.
 #include <algorithm>
+#include <cstring>
+#include <limits>
 
 #include "tests/cli/program.h"
 
@@ -132,6 +134,23 @@ TEST_F(Report, VerifyAgainstAnotherScanGivesFour) {
   EXPECT_NE(outcome.err.find("not lossless"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Report, VerifyAgainstAScanWithACoordinateThatIsNotFiniteGivesFour) {
+  const std::string whole = FileText(Path("s.ply"));
+  const size_t body = whole.find("end_header\n") + 11;
+  for (const float value :
+       {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN(),
+        std::numeric_limits<float>::infinity()}) {
+    for (const size_t coordinate : {size_t{0}, size_t{4501}, size_t{8999}}) {
+      std::string scan = whole;
+      std::memcpy(scan.data() + body + coordinate * sizeof value, &value, sizeof value);
+      WriteText(Path("nan.ply"), scan);
+      const Outcome outcome = Run({"verify", Path("s.folp"), "--against", Path("nan.ply"), "-q"});
+      EXPECT_EQ(outcome.exit_code, 4) << coordinate;
+      EXPECT_NE(outcome.err.find("not lossless"), std::string::npos) << outcome.err;
+    }
+  }
+}
+
 TEST_F(Report, FileCutInsideTheTableGivesFour) {
   WriteText(Path("cut.folp"), FileText(Path("s.folp")).substr(0, 20));
   ExpectError({"info", Path("cut.folp")}, 4, "cut.folp");
@@ -139,10 +158,31 @@ TEST_F(Report, FileCutInsideTheTableGivesFour) {
   EXPECT_FALSE(std::filesystem::exists(Path("d.ply")));
 }
 
+TEST_F(Report, FileCutInsideTheFirstLayerIsNamed) {
+  const auto info = Run({"info", Path("s.folp"), "--json"}).json();
+  const auto end = info.at("layers").at(0).at("end_byte").get<size_t>();
+  WriteText(Path("cut.folp"), FileText(Path("s.folp")).substr(0, end - 1));
+  ExpectError({"compare", Path("s.folp"), Path("cut.folp"), "--json"}, 4, Path("cut.folp") + ": ");
+  ExpectError({"decode", Path("cut.folp"), "-o", Path("d.ply")}, 4, Path("cut.folp") + ": ");
+}
+
 TEST_F(Report, CutFileIsNotLossless) {
   const std::string whole = FileText(Path("s.folp"));
   WriteText(Path("cut.folp"), whole.substr(0, whole.size() - 1));
   EXPECT_EQ(Run({"verify", Path("cut.folp"), "--json"}).exit_code, 4);
+}
+
+TEST_F(Report, WhatIsNotKeptAsItWasIsAWarning) {
+  WriteText(Path("strip.ply"),
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+            "property float z\nproperty uchar red\nelement tristrips 1\n"
+            "property list int int vertex_indices\nend_header\n"
+            "0 0 0 9\n1 0 0 9\n0 1 0 9\n1 1 1 9\n8 0 1 2 3 -1 1 2 3\n");
+  const Outcome outcome = Run({"encode", Path("strip.ply"), "-o", Path("o.folp"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(
+      outcome.json().at("warnings"),
+      (std::vector<std::string>{"2 triangle strips unrolled", "properties not kept: vertex.red"}));
 }
 
 TEST_F(Report, UnreadableScanGivesThree) {

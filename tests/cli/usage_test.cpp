@@ -73,10 +73,14 @@ TEST_F(Usage, RejectsValuesOutOfRangeNamingTheOption) {
   for (const char* value : {"0", "-1", "nan", "inf", "1mm", ""}) {
     ExpectError(with(encode, "--tolerance", value), 2, "--tolerance");
   }
+  for (const char* value : {"1e38", "1e41", "1e300"}) {
+    ExpectError(with(encode, "--tolerance", value), 2, "tolerance");
+  }
   for (const char* value : {"12x", "-1", "", "1.5", "1e300", "MiB"}) {
     ExpectError(with(encode, "-M", value), 2, "--memory");
   }
   ExpectError(with(encode, "-M", "0"), 2, "memory");
+  ExpectError({"synth", "--vertices", "4294967296", "-o", Path("s.ply")}, 2, "4294967295");
   ExpectError(with(encode, "--subtree-vertices", "0"), 2, "--subtree-vertices");
   ExpectError(with(encode, "--subtree-vertices", "5G"), 2, "subtree_vertices");
   ExpectError(with(encode, "-T", "-1"), 2, "--threads");
@@ -125,7 +129,8 @@ TEST_F(Usage, InterruptedRunLeavesNothingBehind) {
     const char* vertices;
     int signal;
   };
-  for (const Case& c : {Case{"count", "20G", SIGINT}, Case{"write", "20M", SIGTERM}}) {
+  for (const Case& c :
+       {Case{"count", "4G", SIGINT}, Case{"write", "20M", SIGTERM}, Case{"write", "20M", SIGHUP}}) {
     // Both stages last for seconds; the log line tells that one has begun.
     const pid_t process = Start({"synth", "--vertices", c.vertices, "-o", Path("s.ply"), "-v"});
     for (int i = 0; i < 6000 && ErrorsSoFar().find(c.stage) == std::string::npos; ++i) {
@@ -136,6 +141,23 @@ TEST_F(Usage, InterruptedRunLeavesNothingBehind) {
     EXPECT_EQ(outcome.exit_code, 130);
     EXPECT_NE(outcome.err.find("folprom: interrupted\n"), std::string::npos) << outcome.err;
     EXPECT_TRUE(Files().empty()) << c.stage;
+  }
+}
+
+TEST_F(Usage, FileThatMayNotGrowIsAnOutputErrorAndLeavesNothing) {
+  ASSERT_EQ(Run({"synth", "--vertices", "3000", "-o", Path("s.ply"), "-q"}).exit_code, 0);
+  ASSERT_EQ(Run({"encode", Path("s.ply"), "-o", Path("s.folp"), "-q"}).exit_code, 0);
+  std::filesystem::create_directory(Path("tmp"));
+  const std::vector<std::string> before = Files();
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"synth", "--vertices", "3000", "-o", Path("o")},
+        {"encode", Path("s.ply"), "-o", Path("o"), "--tmp", Path("tmp")},
+        {"decode", Path("s.folp"), "-o", Path("o"), "--tmp", Path("tmp")}}) {
+    const Outcome outcome = Wait(Start(arguments, 4000));
+    EXPECT_EQ(outcome.exit_code, 5) << arguments[0] << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot write"), std::string::npos) << outcome.err;
+    EXPECT_EQ(Files(), before) << arguments[0];
+    EXPECT_TRUE(std::filesystem::is_empty(Path("tmp"))) << arguments[0];
   }
 }
 

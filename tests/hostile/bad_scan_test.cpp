@@ -74,6 +74,27 @@ TEST(BadScan, OfTheMalformedSharedFilesIsRefusedOrVerifies) {
   EXPECT_EQ(faults, "");
 }
 
+TEST(BadScan, WithANaNInPlaceOfAZeroIsNotWhatTheFileGivesBack) {
+  TestMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.7, 0.1}};
+  mesh.faces = {{0, 1, 2}, {1, 3, 2}};
+  TemporaryFolder folder;
+  WriteFile(folder.File("scan.folp"), Encoded(mesh, SmallOptions()));
+  // On the lattice it is 0 again, so that all but the coordinate itself agrees.
+  mesh.positions[0][0] = std::numeric_limits<double>::quiet_NaN();
+  WriteFile(folder.File("nan.ply"), std::string_view(PlyBytes(mesh)));
+  auto runner = parallel::MakeSerialRunner();
+  parallel::Progress progress;
+  DecodeOptions options;
+  options.temporary_folder = folder.path();
+  auto report =
+      VerifyFile(folder.File("scan.folp"), folder.File("nan.ply"), options, *runner, progress);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_FALSE(report->lossless);
+  EXPECT_NE(report->reason.find("tolerance"), std::string::npos) << report->reason;
+  EXPECT_EQ(report->max_position_error, std::numeric_limits<double>::infinity());
+}
+
 TEST(BadScan, CutAtAnyByteIsRefused) {
   for (PlyForm form : {PlyForm::kLittleEndian, PlyForm::kBigEndian}) {
     const std::string whole = PlyBytes(TinyMesh(), form);

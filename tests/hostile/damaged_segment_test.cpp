@@ -4,6 +4,8 @@
 #include <random>
 
 #include "engine/codec/layer_reader.h"
+#include "parallel/progress.h"
+#include "parallel/runner.h"
 #include "tests/hostile/guarded_child.h"
 #include "tests/hostile/support.h"
 
@@ -120,6 +122,39 @@ TEST(DamagedSegment, WithOneFlippedBitEndsWell) {
     return EndsWell(PutTogether(std::move(parts)));
   });
   EXPECT_EQ(faults, "");
+}
+
+TEST(DamagedSegment, IsNamedOnceWithFileLayerAndSubtree) {
+  const Bytes whole = SmallFile();
+  const Parts small = TakeApart(whole);
+  Parts longer = small;
+  Bytes& segment = longer.segments[longer.table.SegmentIndex(2, 1, io::SegmentPart::kInner)];
+  segment.resize(segment.size() + 20, 0xff);
+  // Under the checksum that fits, and not.
+  Bytes damaged = whole;
+  const auto container = io::ContainerReader::Open(whole, "whole").value();
+  size_t begin = 0;
+  for (size_t layer = 0; layer <= 2; ++layer) {
+    const auto bytes = container.Segment(layer, 1, io::SegmentPart::kInner).value();
+    begin = static_cast<size_t>(bytes.data() - whole.data());
+  }
+  damaged[begin] = static_cast<uint8_t>(damaged[begin] ^ 1);
+  TemporaryFolder folder;
+  auto runner = parallel::MakeSerialRunner();
+  for (const Bytes& file : {PutTogether(longer), damaged}) {
+    WriteFile(folder.File("d.folp"), file);
+    parallel::Progress progress;
+    DecodeOptions options;
+    options.temporary_folder = folder.path();
+    const auto report =
+        DecodeFile(folder.File("d.folp"), folder.File("out.ply"), options, *runner, progress);
+    ASSERT_FALSE(report.ok());
+    const std::string& message = report.error().message;
+    EXPECT_EQ(report.error().kind, ErrorKind::kCorrupt);
+    EXPECT_TRUE(message.starts_with(folder.File("d.folp") + ": layer 2, subtree ")) << message;
+    EXPECT_EQ(message.find("subtree"), message.rfind("subtree")) << message;
+    EXPECT_EQ(message.find("d.folp"), message.rfind("d.folp")) << message;
+  }
 }
 
 TEST(DamagedSegment, CutOrLengthenedEndsWell) {

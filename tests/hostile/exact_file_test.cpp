@@ -76,10 +76,6 @@ TEST(ExactFile, UnderAnotherLatticeIsCorrupt) {
   ExpectCorrupt([](io::FileTable& table) { table.origin[1] += table.unit / 2; });
   ExpectCorrupt([](io::FileTable& table) { table.origin[2] = 1e300; });
   ExpectCorrupt([](io::FileTable& table) { table.origin[0] = 1e17; });
-  for (auto type : {io::ScalarType::kInt8, io::ScalarType::kUint32}) {
-    ExpectCorrupt(
-        [&](io::FileTable& table) { table.coordinate_type = static_cast<uint8_t>(type); });
-  }
   ExpectCorrupt([](io::FileTable& table) {
     CodecParameters parameters = ParametersOf(table);
     ++parameters.exact->step.exponent;

@@ -12,9 +12,9 @@
 #include <stdexcept>
 
 #include "io/container/reader.h"
-#include "io/container/writer.h"
 #include "parallel/progress.h"
 #include "parallel/runner.h"
+#include "tests/support/memory_file.h"
 
 namespace folprom::hostile {
 namespace fs = std::filesystem;
@@ -200,8 +200,8 @@ Bytes PutTogether(Parts parts) {
     for (size_t i = 1; i < parts.segments.size(); i += 2) parts.segments[i].clear();
   }
   for (const Bytes& segment : parts.segments) parts.table.segment_bytes.push_back(segment.size());
-  return io::WriteContainerToMemory(parts.table, [&](size_t layer, size_t subtree,
-                                                     io::SegmentPart part) {
+  return support::WrittenContainer(parts.table, [&](size_t layer, size_t subtree,
+                                                    io::SegmentPart part) {
     return std::span<const uint8_t>(parts.segments[parts.table.SegmentIndex(layer, subtree, part)]);
   });
 }

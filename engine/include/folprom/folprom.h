@@ -49,10 +49,11 @@ Result<EncodeReport> EncodeFile(const std::string& input, const std::string& out
 struct DecodeReport {
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  uint64_t layers = 0;                ///< decoded
-  uint64_t layers_total = 0;          ///< in the file as announced
-  bool complete = false;              ///< the whole mesh came back
-  uint64_t bytes_read = 0;            ///< bytes of the file that the request needed
+  uint64_t layers = 0;        ///< decoded
+  uint64_t layers_total = 0;  ///< in the file as announced
+  bool complete = false;      ///< the whole mesh came back
+  /// Of the table and the decoded segments. Checksums, and what else they cover, are read besides.
+  uint64_t bytes_read = 0;
   double error_bound = 0;             ///< of the last decoded layer, model units
   std::vector<std::string> warnings;  ///< for instance "file is cut after layer 12 of 30"
 };
@@ -103,8 +104,9 @@ Result<FileInfo> ReadInfo(const std::string& input);
 
 struct VerifyReport {
   bool lossless = false;
-  bool against = false;           ///< an original was compared
-  double max_position_error = 0;  ///< largest |difference| on one axis, model units (against only)
+  bool against = false;  ///< an original was compared
+  /// Largest |difference| on one axis, model units (against only); infinite where it is not finite.
+  double max_position_error = 0;
   double tolerance = 0;
   uint64_t vertices = 0;
   uint64_t faces = 0;

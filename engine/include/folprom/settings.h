@@ -78,23 +78,29 @@ struct CodecSettings {
 /// kUsage with the name of the first field out of its range.
 Result<void> CheckSettings(const CodecSettings& settings);
 
+/// Error bounds of larger tolerances would not fit into a float.
+inline constexpr double kLargestTolerance = 1e37;
+
 /// What `encode` is asked for.
 struct EncodeOptions {
   CodecSettings codec;
   /// Lattice bits N: tolerance = longest box side / (2^N - 1) / 2. 1 .. 24. Used when tolerance ==
   /// 0.
   uint32_t bits = 12;
-  /// Largest error per axis in model units; 0: from `bits`.
+  /// Largest error per axis in model units, up to kLargestTolerance; 0: from `bits`.
   double tolerance = 0;
   /// Positions come back bit for bit: floats and doubles, also -0.0, infinities and NaN. `bits` and
   /// `tolerance` are not used. Needs Offsets::kLattice.
   bool exact = false;
-  uint64_t memory_bytes = uint64_t{2} << 30;  ///< resident size to stay below; never alters bytes
-  std::string temporary_folder;               ///< empty: $TMPDIR or /tmp
-  bool overwrite = false;                     ///< may replace the output
+  /// Resident size to stay below; never alters bytes. The seams do not count their memory by it: a
+  /// thread holds the border records of a subtree and its lower neighbours.
+  uint64_t memory_bytes = uint64_t{2} << 30;
+  std::string temporary_folder;  ///< empty: $TMPDIR or /tmp
+  bool overwrite = false;        ///< may replace the output
 };
 
-/// CheckSettings of the codec, and whether the options go together.
+/// CheckSettings of the codec, the ranges of `bits` and `tolerance`, and whether the options go
+/// together. kUsage.
 Result<void> CheckOptions(const EncodeOptions& options);
 
 /// What `decode` is asked for. At most one of the bounds is set; none: everything.

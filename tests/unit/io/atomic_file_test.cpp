@@ -90,6 +90,15 @@ TEST(AtomicFile, WritesThroughASymbolicLink) {
   EXPECT_EQ(FileContent(folder.File("real")), "new");
 }
 
+TEST(AtomicFile, RefusesASymbolicLinkToNothing) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("missing", folder.File("link"));
+  for (const bool force : {false, true}) {
+    ExpectOutputError(folder.File("link"), force, "symbolic link to a file that does not exist");
+  }
+  EXPECT_EQ(folder.Names(), std::vector<std::string>{"link"});
+}
+
 TEST(AtomicFile, RefusesTargetsThatCannotBeFiles) {
   const TemporaryFolder folder;
   WriteFile(folder.File("file"), "x");

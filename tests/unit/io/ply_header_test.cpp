@@ -45,6 +45,17 @@ TEST(PlyHeader, NamesTheKnownFormatsForAnyOtherFile) {
   ExpectFault("", "the file is empty");
 }
 
+TEST(PlyHeader, RefusesNamesThatWouldGarbleATerminal) {
+  for (const std::string name : {"a\x1b[2Jb", "a\x07", "\x7f", "a\rb", "gr\xc3\xbcn"}) {
+    ExpectFault(Ascii("element " + name + " 0\n" + std::string(kVertices), "1 2 3\n"),
+                "line 3: the name \"");
+    const std::string fault =
+        InputErrorOf(Ascii(std::string(kVertices) + "property float " + name + "\n", "1 2 3 4\n"));
+    EXPECT_NE(fault.find("not printable ASCII"), std::string::npos) << name;
+    for (const char c : fault) EXPECT_TRUE(c >= ' ' && c <= '~');
+  }
+}
+
 TEST(PlyHeader, NamesTheLineOfAFault) {
   ExpectFault("ply\nformat ascii 1.0\nelement vertex -5\n", "line 3: the count of element");
   ExpectFault("ply\nformat ascii 1.0\nelement vertex 18446744073709551616\n", "not a number");

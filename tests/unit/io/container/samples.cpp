@@ -1,7 +1,10 @@
 #include "samples.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "tests/support/memory_file.h"
 
 namespace folprom::io {
 namespace {
@@ -17,7 +20,7 @@ uint64_t DrawAnyWidth(std::mt19937_64* random, int widest) {
 
 SubtreeRecord RandomSubtree(size_t number, const FileTable& table, std::mt19937_64* random) {
   SubtreeRecord subtree;
-  subtree.vertices = static_cast<uint32_t>(DrawAnyWidth(random, 32));
+  subtree.vertices = static_cast<uint32_t>(std::max<uint64_t>(DrawAnyWidth(random, 32), 1));
   for (size_t axis = 0; axis < 3; ++axis) {
     const auto extent = static_cast<uint64_t>(table.extent[axis]);
     const uint64_t lo = Draw(random, 0, extent);
@@ -35,7 +38,7 @@ SubtreeRecord RandomSubtree(size_t number, const FileTable& table, std::mt19937_
 FileTable RandomTable(uint64_t seed, bool few_bytes) {
   std::mt19937_64 random(seed);
   FileTable table;
-  table.coordinate_type = static_cast<uint8_t>(Draw(&random, 0, 7));
+  table.coordinate_type = static_cast<uint8_t>(Draw(&random, 6, 7));
   for (size_t axis = 0; axis < 3; ++axis) {
     table.origin[axis] = static_cast<double>(random()) * -1e-9;
     table.extent[axis] = static_cast<int32_t>(DrawAnyWidth(&random, 30));
@@ -139,7 +142,7 @@ std::vector<uint8_t> SampleSegment(const FileTable& table, size_t layer, size_t 
 
 std::vector<uint8_t> SampleFile(const FileTable& table) {
   std::vector<uint8_t> bytes;
-  return WriteContainerToMemory(table, [&](size_t layer, size_t subtree, SegmentPart part) {
+  return support::WrittenContainer(table, [&](size_t layer, size_t subtree, SegmentPart part) {
     bytes = SampleSegment(table, layer, subtree, part);
     return std::span<const uint8_t>(bytes);
   });

@@ -147,11 +147,12 @@ TEST(TableCode, RejectsASeamWhereNoSubtreeHasALowerNeighbour) {
 
 TEST(TableCode, RejectsNeighboursThatAreNotLower) {
   const auto with_neighbours = [](const std::vector<uint64_t>& steps) {
-    ByteWriter out = BeforeCounts();
+    ByteWriter out = BeforeCounts(3);
     out.Varint(0);
     out.Varint(3);
     for (int subtree = 0; subtree < 3; ++subtree) {
-      for (int i = 0; i < 7; ++i) out.Varint(0);
+      out.Varint(1);
+      for (int i = 0; i < 6; ++i) out.Varint(0);
       if (subtree < 2) out.Varint(0);
     }
     out.Varint(steps.size());
@@ -169,10 +170,10 @@ TEST(TableCode, RejectsNeighboursThatAreNotLower) {
 
 TEST(TableCode, RejectsBoxesOutsideTheExtent) {
   const auto with_box = [](uint64_t lo, uint64_t side) {
-    ByteWriter out = BeforeCounts(0, 10);
+    ByteWriter out = BeforeCounts(1, 10);
     out.Varint(0);
     out.Varint(1);
-    out.Varint(0);
+    out.Varint(1);
     for (int axis = 0; axis < 3; ++axis) {
       out.Varint(lo);
       out.Varint(side);
@@ -184,6 +185,14 @@ TEST(TableCode, RejectsBoxesOutsideTheExtent) {
   ExpectCorrupt(with_box(11, 0), "lower corner of a box is 11");
   ExpectCorrupt(with_box(4, 7), "side of a box is 7");
   ExpectCorrupt(with_box(4, UINT64_MAX), "side of a box");
+}
+
+TEST(TableCode, RejectsASubtreeWithoutVertices) {
+  ByteWriter out = BeforeCounts();
+  out.Varint(0);
+  out.Varint(1);
+  for (int i = 0; i < 8; ++i) out.Varint(0);
+  ExpectCorrupt(std::move(out).Take(), "subtree 0: no vertices");
 }
 
 TEST(TableCode, RejectsVerticesThatTheSubtreesDoNotHave) {
@@ -230,9 +239,11 @@ TEST(TableCode, RejectsALatticeThatIsNone) {
   ExpectCorrupt(with_double(29, infinity), "unit of the lattice");
   ExpectCorrupt(with_double(42, -1), "tolerance");
   ExpectCorrupt(with_double(42, nan), "tolerance");
-  auto type = bytes;
-  type[4] = 8;
-  ExpectCorrupt(type, "coordinate type 8");
+  for (const int other : {0, 5, 8, 100}) {
+    auto type = bytes;
+    type[4] = static_cast<uint8_t>(other);
+    ExpectCorrupt(type, "coordinate type " + std::to_string(other));
+  }
   ByteWriter wide = BeforeCounts(0, uint64_t{1} << 30);
   ExpectCorrupt(std::move(wide).Take(), "extent of the lattice");
 }

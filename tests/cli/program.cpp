@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -23,31 +22,11 @@ void WriteText(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-CliTest::CliTest() {
-  std::string name = (fs::temp_directory_path() / "folprom-cli-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  root_ = name;
-  folder_ = root_ / "files";
-  fs::create_directory(folder_);
-}
-
-CliTest::~CliTest() {
-  std::error_code ignored;
-  fs::remove_all(root_, ignored);
-}
-
-std::vector<std::string> CliTest::Files() const {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
+CliTest::CliTest() : folder_(root_.File("files")) { fs::create_directory(folder_); }
 
 pid_t CliTest::Start(const std::vector<std::string>& arguments, uint64_t largest_file) const {
-  const std::string out = (root_ / "out").string();
-  const std::string err = (root_ / "err").string();
+  const std::string out = root_.File("out");
+  const std::string err = root_.File("err");
   WriteText(err, "");
   std::vector<std::string> words = {FOLPROM_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -68,15 +47,15 @@ pid_t CliTest::Start(const std::vector<std::string>& arguments, uint64_t largest
   _exit(127);
 }
 
-std::string CliTest::ErrorsSoFar() const { return FileText(root_ / "err"); }
+std::string CliTest::ErrorsSoFar() const { return FileText(root_.File("err")); }
 
 Outcome CliTest::Wait(pid_t process) const {
   int status = 0;
   waitpid(process, &status, 0);
   Outcome outcome;
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  outcome.out = FileText(root_ / "out");
-  outcome.err = FileText(root_ / "err");
+  outcome.out = FileText(root_.File("out"));
+  outcome.err = FileText(root_.File("err"));
   return outcome;
 }
 

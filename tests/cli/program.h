@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace folprom::cli_test {
 
 struct Outcome {
@@ -26,11 +28,10 @@ void WriteText(const std::filesystem::path& path, const std::string& text);
 class CliTest : public ::testing::Test {
  protected:
   CliTest();
-  ~CliTest() override;
 
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
   /// Names of all files in the folder, hidden ones too, sorted.
-  std::vector<std::string> Files() const;
+  std::vector<std::string> Files() const { return support::NamesIn(folder_); }
 
   /// Starts the program; standard output and error go to files outside the folder.
   /// largest_file: bytes to which it may write a file, 0 for any number.
@@ -46,7 +47,7 @@ class CliTest : public ::testing::Test {
                    const std::string& part) const;
 
  private:
-  std::filesystem::path root_;
+  support::TemporaryFolder root_;
   std::filesystem::path folder_;
 };
 

@@ -1,12 +1,10 @@
 #include "tests/decode_library/program_files.h"
 
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -63,16 +61,9 @@ std::string OutputOf(const std::vector<std::string>& command) {
 }
 
 ProgramFiles::ProgramFiles() {
-  folder_ = (std::filesystem::temp_directory_path() / "folprom-decode-XXXXXX").string();
-  if (mkdtemp(folder_.data()) == nullptr) throw std::runtime_error("no temporary folder");
   OutputOf({FOLPROM_PROGRAM, "synth", "--vertices", "20000", "-o", File("scan.ply"), "-q"});
   OutputOf({FOLPROM_PROGRAM, "encode", File("scan.ply"), "-o", File("scan.folp"),
             "--subtree-vertices", "3000", "-q"});
-}
-
-ProgramFiles::~ProgramFiles() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
 std::vector<uint8_t> ProgramFiles::FolpBytes() const { return Content(File("scan.folp")); }

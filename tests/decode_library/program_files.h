@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "folprom/decoder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace folprom::decode_library {
 
@@ -14,17 +15,14 @@ class ProgramFiles {
  public:
   /// Throws std::runtime_error when the program fails.
   ProgramFiles();
-  ~ProgramFiles();
-  ProgramFiles(const ProgramFiles&) = delete;
-  ProgramFiles& operator=(const ProgramFiles&) = delete;
 
   std::vector<uint8_t> FolpBytes() const;
   /// What the program decodes of the first `layers` layers.
   DecodedMesh DecodedByProgram(size_t layers) const;
 
  private:
-  std::string File(const std::string& name) const { return folder_ + "/" + name; }
-  std::string folder_;
+  std::string File(const std::string& name) const { return folder_.File(name); }
+  support::TemporaryFolder folder_;
 };
 
 /// Runs a program, gives its standard output; throws std::runtime_error unless it exits with 0.

@@ -1,15 +1,11 @@
 #include "tests/hostile/support.h"
 
-#include <stdlib.h>
-
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 
 #include "io/container/reader.h"
 #include "parallel/progress.h"
@@ -18,25 +14,6 @@
 
 namespace folprom::hostile {
 namespace fs = std::filesystem;
-
-TemporaryFolder::TemporaryFolder() {
-  path_ = (fs::temp_directory_path() / "folprom-hostile-XXXXXX").string();
-  if (mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::vector<std::string> TemporaryFolder::Names() const {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(path_)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 void WriteFile(const std::string& path, std::span<const uint8_t> bytes) {
   std::ofstream(path, std::ios::binary)

@@ -11,26 +11,13 @@
 #include "folprom/decoder.h"
 #include "folprom/folprom.h"
 #include "io/container/file_table.h"
+#include "tests/support/temporary_folder.h"
 
 namespace folprom::hostile {
 
 using Bytes = std::vector<uint8_t>;
 
-/// A fresh folder that goes, with all in it, at the end of the scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::string& path() const { return path_; }
-  std::string File(const std::string& name) const { return path_ + "/" + name; }
-  /// Names of all entries inside, also hidden ones, sorted.
-  std::vector<std::string> Names() const;
-
- private:
-  std::string path_;
-};
+using support::TemporaryFolder;
 
 void WriteFile(const std::string& path, std::span<const uint8_t> bytes);
 void WriteFile(const std::string& path, std::string_view text);

@@ -1,27 +1,13 @@
-// Temporary folders, whole files, and the shared scans.
+// Whole files, and the shared scans.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace folprom::support {
-
-/// A fresh folder that goes, with all in it, at the end of the scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::string& path() const { return path_; }
-  std::string File(const std::string& name) const { return path_ + "/" + name; }
-  /// Names of all files and folders inside, sorted.
-  std::vector<std::string> Names() const;
-
- private:
-  std::string path_;
-};
 
 std::vector<uint8_t> FileBytes(const std::string& path);
 

@@ -8,24 +8,11 @@
 #include <vector>
 
 #include "io/formats/mesh_source.h"
+#include "tests/support/temporary_folder.h"
 
 namespace folprom::io::testing {
 
-/// A fresh folder that goes, with all in it, at the end of the scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::string& path() const { return path_; }
-  std::string File(const std::string& name) const { return path_ + "/" + name; }
-  /// Names of all files inside, sorted.
-  std::vector<std::string> Names() const;
-
- private:
-  std::string path_;
-};
+using support::TemporaryFolder;
 
 void WriteFile(const std::string& path, std::string_view bytes);
 std::string FileContent(const std::string& path);

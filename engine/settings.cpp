@@ -133,8 +133,7 @@ Result<void> CheckOptions(const EncodeOptions& options) {
   }
   if (options.exact && options.codec.offsets != Offsets::kLattice) {
     return Error{ErrorKind::kUsage,
-                 "exact needs offsets = \"lattice\" and hierarchy = \"quadric\", as "
-                 "configs/quadric.toml has them"};
+                 "exact needs offsets = \"lattice\" and hierarchy = \"quadric\", the defaults"};
   }
   return CheckSettings(options.codec);
 }

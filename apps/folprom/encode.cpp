@@ -22,7 +22,7 @@ constexpr const char* kDescription =
     "  folprom encode scan.ply -o scan.folp\n"
     "  folprom encode scan.ply -o scan.folp --bits 16 -T 8 -M 4GiB\n"
     "  folprom encode scan.ply -o scan.folp --config configs/paper.toml\n"
-    "  folprom encode scan.ply -o scan.folp --config configs/quadric.toml --exact\n"
+    "  folprom encode scan.ply -o scan.folp --exact\n"
     "  folprom encode --print-config > my.toml";
 
 struct EncodeFlags {

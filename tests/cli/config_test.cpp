@@ -55,14 +55,8 @@ TEST_F(Config, PaperFileIsInTheFormThatTheProgramPrints) {
   EXPECT_EQ(FromFirstTable(FileText(kConfigs + "paper.toml")), printed.out);
 }
 
-TEST_F(Config, QuadricFileIsInTheFormThatTheProgramPrints) {
-  const Outcome printed = Effective({"--config", kConfigs + "quadric.toml"});
-  ASSERT_EQ(printed.exit_code, 0) << printed.err;
-  EXPECT_EQ(FromFirstTable(FileText(kConfigs + "quadric.toml")), printed.out);
-}
-
 TEST_F(Config, LatticeOffsetsAskForTheQuadricHierarchy) {
-  const Outcome refused = Effective({"--config", Write("[codec]\noffsets = \"lattice\"\n")});
+  const Outcome refused = Effective({"--config", Write("[codec]\nhierarchy = \"lloyd\"\n")});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("hierarchy = \"quadric\""), std::string::npos) << refused.err;
 }
@@ -78,8 +72,7 @@ TEST_F(Config, ExactAsksForLatticeOffsets) {
 }
 
 TEST_F(Config, BitsOnTheCommandLineWinOverExactInTheFile) {
-  const std::string config =
-      Write("[encode]\nexact = true\n[codec]\noffsets = \"lattice\"\nhierarchy = \"quadric\"\n");
+  const std::string config = Write("[encode]\nexact = true\n");
   const auto exact = [&](const std::vector<std::string>& flags) {
     std::vector<std::string> arguments = {"--config", config};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
@@ -95,11 +88,10 @@ TEST_F(Config, EveryKeyStandsInEveryFileAndNoOther) {
   EXPECT_GT(known.size(), 20u);
   EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + "default.toml")), known);
   EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + "paper.toml")), known);
-  EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + "quadric.toml")), known);
 }
 
 TEST_F(Config, EveryKeyOfTheFilesHasItsComment) {
-  for (const char* name : {"default.toml", "paper.toml", "quadric.toml"}) {
+  for (const char* name : {"default.toml", "paper.toml"}) {
     const std::string text = FileText(kConfigs + name);
     for (const std::string& full_name : KeysOf(toml::parse(text))) {
       const std::string key = full_name.substr(full_name.find('.') + 1);

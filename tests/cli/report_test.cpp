@@ -54,7 +54,7 @@ TEST_F(Report, InfoAsJson) {
              {"split", "offsets", "refinement", "connectivity", "exceptions", "seams"});
   EXPECT_EQ(info.at("vertices"), 3000);
   EXPECT_EQ(info.at("bytes"), encoded_.json().at("bytes"));
-  EXPECT_EQ(info.at("codec").at("hierarchy"), "lloyd");
+  EXPECT_EQ(info.at("codec").at("hierarchy"), "quadric");
   const auto& layers = info.at("layers");
   ASSERT_EQ(layers.size(), encoded_.json().at("layers").get<size_t>());
   for (const auto& layer : layers) {
@@ -65,8 +65,7 @@ TEST_F(Report, InfoAsJson) {
 }
 
 TEST_F(Report, OfAnExactFile) {
-  const Outcome encoded = Run({"encode", Path("s.ply"), "-o", Path("e.folp"), "--exact", "--config",
-                               FOLPROM_SOURCE_DIR "/configs/quadric.toml"});
+  const Outcome encoded = Run({"encode", Path("s.ply"), "-o", Path("e.folp"), "--exact"});
   ASSERT_EQ(encoded.exit_code, 0) << encoded.err;
   const auto info = Run({"info", Path("e.folp"), "--json"}).json();
   ExpectKeys(info.at("exact"), {"type", "radix", "exponent", "bits", "has_rests"});

@@ -8,6 +8,7 @@
 #include "io/container/checksum.h"
 #include "tests/support/bit_mesh.h"
 #include "tests/support/codec.h"
+#include "tests/support/coders.h"
 #include "tests/support/files.h"
 #include "tests/support/ply.h"
 #include "tests/support/random.h"
@@ -18,12 +19,12 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0x5f1d50387e8f09f7;
-constexpr uint64_t kPaperHash = 0xf9168d67404e3e07;
-constexpr uint64_t kQuadricHash = 0x8b84dba817717eaf;
-constexpr uint64_t kExactHash = 0xd84172ebe107b204;
-constexpr uint64_t kExactRestsHash = 0x3871dfc5a246aea0;
-constexpr uint64_t kOtherHash = 0xc3258aa57680017d;
+constexpr uint64_t kDefaultHash = 0x83d7e4f6aa52f791;
+constexpr uint64_t kPaperHash = 0x324f791b2572ce63;
+constexpr uint64_t kSubtreesHash = 0x7ce2935471533768;
+constexpr uint64_t kExactHash = 0x6bc1fa6f5edbc623;
+constexpr uint64_t kExactRestsHash = 0x92926f46489a0d34;
+constexpr uint64_t kOtherHash = 0x8f0ebc7d7c8cd4db;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {
@@ -47,6 +48,7 @@ TEST(GoldenTest, DefaultSettingsGiveTheKnownBytes) { ExpectHash("kDefaultHash", 
 TEST(GoldenTest, SettingsOfThePaperInSubtreesGiveTheKnownBytes) {
   EncodeOptions options;
   options.bits = 16;
+  options.codec = LloydSettings();
   CodecSettings& codec = options.codec;
   codec.subtree_vertices = 700;
   codec.children = 4;
@@ -66,13 +68,11 @@ TEST(GoldenTest, SettingsOfThePaperInSubtreesGiveTheKnownBytes) {
   ExpectHash("kPaperHash", kPaperHash, options);
 }
 
-TEST(GoldenTest, QuadricHierarchyInSubtreesGivesTheKnownBytes) {
+TEST(GoldenTest, DefaultSettingsInSubtreesGiveTheKnownBytes) {
   EncodeOptions options;
   options.bits = 15;
   options.codec.subtree_vertices = 1500;
-  options.codec.hierarchy = Hierarchy::kQuadric;
-  options.codec.offsets = Offsets::kLattice;
-  ExpectHash("kQuadricHash", kQuadricHash, options);
+  ExpectHash("kSubtreesHash", kSubtreesHash, options);
 }
 
 TEST(GoldenTest, ExactIntegersGiveTheKnownBytes) {
@@ -98,6 +98,7 @@ TEST(GoldenTest, ExactCoordinatesOffAnyLatticeGiveTheKnownBytes) {
 TEST(GoldenTest, EverythingOffInSubtreesGivesTheKnownBytes) {
   EncodeOptions options;
   options.bits = 14;
+  options.codec = LloydSettings();
   CodecSettings& codec = options.codec;
   codec.subtree_vertices = 500;
   codec.children = 7;

@@ -8,6 +8,7 @@
 #include "parallel/runner.h"
 #include "tests/support/bit_mesh.h"
 #include "tests/support/codec.h"
+#include "tests/support/coders.h"
 #include "tests/support/files.h"
 #include "tests/support/ply.h"
 #include "tests/support/surfaces.h"
@@ -68,24 +69,31 @@ void ExpectSameBytes(const std::string& scan, EncodeOptions options, uint64_t le
   }
 }
 
-TEST(RunnerTest, NeverChangesTheBytesOfASurface) {
+class RunnerTest : public ::testing::TestWithParam<Coder> {
+ protected:
+  static EncodeOptions Options(uint32_t subtree_vertices) {
+    EncodeOptions options;
+    options.codec = GetParam().settings;
+    options.codec.subtree_vertices = subtree_vertices;
+    return options;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Coder, RunnerTest, EveryCoder(), NameOfCoder);
+
+TEST_P(RunnerTest, NeverChangesTheBytesOfASurface) {
   TemporaryFolder folder;
-  WritePly(folder.File("scan.ply"), BumpySphere(kSanitized ? 6000 : 40000, true, 1),
+  WritePly(folder.File("scan.ply"), BumpySphere(kSanitized ? 6000 : 20000, true, 1),
            CoordinateType::kFloat);
-  EncodeOptions options;
-  options.codec.subtree_vertices = kSanitized ? 600 : 3000;
-  ExpectSameBytes(folder.File("scan.ply"), options, 10, 5);
+  ExpectSameBytes(folder.File("scan.ply"), Options(kSanitized ? 600 : 1500), 10, 5);
 }
 
-TEST(RunnerTest, NeverChangesTheBytesOfManySmallSubtrees) {
+TEST_P(RunnerTest, NeverChangesTheBytesOfManySmallSubtrees) {
   TemporaryFolder folder;
   WritePly(folder.File("scan.ply"), BumpySphere(4000, true, 2), CoordinateType::kDouble);
-  EncodeOptions options;
-  options.codec.subtree_vertices = 50;
-  ExpectSameBytes(folder.File("scan.ply"), options, 80, 5);
+  ExpectSameBytes(folder.File("scan.ply"), Options(50), 80, 5);
 }
 
-TEST(RunnerTest, NeverChangesTheBytesOfAnExactFile) {
+TEST(ExactRunnerTest, NeverChangesTheBytesOfAnExactFile) {
   for (CoordinateType type : {CoordinateType::kFloat, CoordinateType::kDouble}) {
     TemporaryFolder folder;
     WritePly(folder.File("scan.ply"), BumpySphere(kSanitized ? 3000 : 8000, true, 3), type);
@@ -93,11 +101,11 @@ TEST(RunnerTest, NeverChangesTheBytesOfAnExactFile) {
   }
 }
 
-TEST(RunnerTest, NeverChangesTheBytesOfDragon) {
-  std::string scan = SharedFile("scans/dragon_vrip.ply");
+TEST_P(RunnerTest, NeverChangesTheBytesOfDragon) {
+  std::string scan = SharedFile("hard/dragon_vrip_res2.ply");
   if (scan.empty()) GTEST_SKIP() << kNoSharedData;
   if (kSanitized) GTEST_SKIP() << "too large for a build with sanitizers";
-  ExpectSameBytes(scan, {}, 6, 1);
+  ExpectSameBytes(scan, Options(15000), 6, 1);
 }
 
 }  // namespace

@@ -219,7 +219,9 @@ TEST(BadScan, OfRandomTrianglesVerifiesAtTheFinestLattice) {
     auto vertex = [&] { return static_cast<uint32_t>(random() % 200); };
     for (uint64_t f = 0; f < 50 + seed * 10; ++f)
       mesh.faces.push_back({vertex(), vertex(), vertex()});
-    EncodeOptions options = SmallOptions(seed % 2 == 0 ? 1000 : 60);
+    const uint32_t subtree_vertices = seed % 2 == 0 ? 1000 : 60;
+    EncodeOptions options =
+        seed % 8 < 4 ? LloydOptions(subtree_vertices) : SmallOptions(subtree_vertices);
     options.bits = 24;
     options.codec.children = 2 + static_cast<uint32_t>(seed % 7);
     options.codec.predict_height = seed % 5 != 0;
@@ -260,8 +262,11 @@ TestMesh ThinPlate(uint64_t seed) {
 TEST(BadScan, OfThinPlatesVerifies) {
   // Sets whose neighbours lie nearer to the axis than their children by a factor of thousands.
   for (uint64_t seed : {2, 17, 400, 1474}) {
+    EncodeOptions quadric = SmallOptions(1000);
+    quadric.bits = 24;
+    EXPECT_EQ(EncodeErrorOfBytes(PlyBytes(ThinPlate(seed)), quadric), "") << seed;
     for (uint32_t levels : {16u, 256u, 4096u}) {
-      EncodeOptions options = SmallOptions(1000);
+      EncodeOptions options = LloydOptions(1000);
       options.bits = 24;
       options.codec.children = 6;
       options.codec.quantisation_levels = levels;

@@ -15,23 +15,27 @@ std::span<const uint8_t> Cut(const Bytes& file, size_t bytes) {
   return std::span<const uint8_t>(file).first(bytes);
 }
 
-size_t TableBytes() {
-  return io::ContainerReader::Open(SmallFile(), "whole").value().table_bytes();
-}
-
-/// Byte positions around the end of the table and of every layer, the only ones at which what
-/// decodes can change, and some between.
-std::set<size_t> InterestingCuts() {
-  auto container = io::ContainerReader::Open(SmallFile(), "whole").value();
-  std::set<size_t> cuts{0, 1, container.table_bytes() - 1, container.table_bytes()};
-  for (size_t layer = 0; layer < container.table().layers.size(); ++layer) {
-    for (size_t near : {0u, 1u}) cuts.insert(container.LayerEnd(layer) - near);
+class CutFile : public SmallFileTest {
+ protected:
+  static size_t TableBytes() {
+    return io::ContainerReader::Open(SmallFile(), "whole").value().table_bytes();
   }
-  for (size_t cut = 0; cut < SmallFile().size(); cut += 97) cuts.insert(cut);
-  return cuts;
-}
 
-TEST(CutFile, HasSeveralSubtreesSeamsAndLayers) {
+  /// Byte positions around the end of the table and of every layer, the only ones at which what
+  /// decodes can change, and some between.
+  static std::set<size_t> InterestingCuts() {
+    auto container = io::ContainerReader::Open(SmallFile(), "whole").value();
+    std::set<size_t> cuts{0, 1, container.table_bytes() - 1, container.table_bytes()};
+    for (size_t layer = 0; layer < container.table().layers.size(); ++layer) {
+      for (size_t near : {0u, 1u}) cuts.insert(container.LayerEnd(layer) - near);
+    }
+    for (size_t cut = 0; cut < SmallFile().size(); cut += 97) cuts.insert(cut);
+    return cuts;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Coder, CutFile, support::EveryCoder(), support::NameOfCoder);
+
+TEST_P(CutFile, HasSeveralSubtreesSeamsAndLayers) {
   const Parts parts = TakeApart(SmallFile());
   EXPECT_GE(parts.table.subtrees.size(), 3u);
   EXPECT_GE(parts.table.layers.size(), 8u);
@@ -43,7 +47,7 @@ TEST(CutFile, HasSeveralSubtreesSeamsAndLayers) {
   EXPECT_EQ(lods.back().faces.size(), 604u);
 }
 
-TEST(CutFile, InsideTheTableIsCorruptAtEveryByte) {
+TEST_P(CutFile, InsideTheTableIsCorruptAtEveryByte) {
   for (size_t bytes = 0; bytes < TableBytes(); ++bytes) {
     auto decoder = MemoryDecoder::Open(Cut(SmallFile(), bytes));
     ASSERT_FALSE(decoder.ok()) << bytes;
@@ -52,7 +56,7 @@ TEST(CutFile, InsideTheTableIsCorruptAtEveryByte) {
   }
 }
 
-TEST(CutFile, GivesTheMeshOfItsCompleteLayersAtEveryByte) {
+TEST_P(CutFile, GivesTheMeshOfItsCompleteLayersAtEveryByte) {
   ErrorKind error;
   const auto whole = DecodeLods(SmallFile(), &error);
   auto container = io::ContainerReader::Open(SmallFile(), "whole").value();
@@ -70,7 +74,7 @@ TEST(CutFile, GivesTheMeshOfItsCompleteLayersAtEveryByte) {
   }
 }
 
-TEST(CutFile, DecodesToTheFileOfItsCompleteLayers) {
+TEST_P(CutFile, DecodesToTheFileOfItsCompleteLayers) {
   TemporaryFolder folder;
   auto runner = parallel::MakeSerialRunner();
   parallel::Progress progress;
@@ -107,7 +111,7 @@ TEST(CutFile, DecodesToTheFileOfItsCompleteLayers) {
   EXPECT_EQ(folder.Names(), (std::vector<std::string>{"cut.folp", "whole.folp"}));
 }
 
-TEST(CutFile, IsNeverLossless) {
+TEST_P(CutFile, IsNeverLossless) {
   TemporaryFolder folder;
   auto runner = parallel::MakeSerialRunner();
   parallel::Progress progress;
@@ -123,7 +127,7 @@ TEST(CutFile, IsNeverLossless) {
   }
 }
 
-TEST(CutFile, RefusesBytesAfterItsEnd) {
+TEST_P(CutFile, RefusesBytesAfterItsEnd) {
   Bytes longer = SmallFile();
   longer.push_back(0);
   ErrorKind error;

@@ -35,7 +35,7 @@ bool EndsWell(std::span<const uint8_t> file) {
 
 /// The small mesh under other settings, each of which opens other paths of the decoder.
 Bytes FileOfKind(size_t kind) {
-  EncodeOptions options = SmallOptions();
+  EncodeOptions options = LloydOptions();
   switch (kind) {
     case 0:
       break;
@@ -56,11 +56,15 @@ Bytes FileOfKind(size_t kind) {
       options.codec.quantisation_levels = 4096;
       break;
     case 5:
-      options = QuadricOptions(80);
+      options = SmallOptions(80);
       break;
     case 6:
-      options = QuadricOptions(150);
+      options = SmallOptions(150);
       options.exact = true;  // of noise: every coordinate leaves a rest
+      break;
+    case 7:
+      options = SmallOptions(300);
+      options.codec.fan_cuts = options.codec.pivot_order = options.codec.trained = false;
       break;
     default:
       options.codec.fan_cuts = options.codec.pivot_order = options.codec.nearer_child = false;
@@ -70,7 +74,7 @@ Bytes FileOfKind(size_t kind) {
   }
   return Encoded(RoughTorus(25, 12), options);
 }
-constexpr size_t kKinds = 8;
+constexpr size_t kKinds = 9;
 
 const std::vector<Parts>& AllKinds() {
   static const std::vector<Parts> kinds = [] {
@@ -124,7 +128,10 @@ TEST(DamagedSegment, WithOneFlippedBitEndsWell) {
   EXPECT_EQ(faults, "");
 }
 
-TEST(DamagedSegment, IsNamedOnceWithFileLayerAndSubtree) {
+using DamagedFile = SmallFileTest;
+INSTANTIATE_TEST_SUITE_P(Coder, DamagedFile, support::EveryCoder(), support::NameOfCoder);
+
+TEST_P(DamagedFile, IsNamedOnceWithFileLayerAndSubtree) {
   const Bytes whole = SmallFile();
   const Parts small = TakeApart(whole);
   Parts longer = small;

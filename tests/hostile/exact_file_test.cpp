@@ -15,7 +15,7 @@ const Bytes& ExactFile() {
   static const Bytes file = [] {
     TestMesh mesh = RoughTorus(16, 10);
     mesh.positions[3] = {std::numeric_limits<double>::infinity(), -0.0, 5e-324};
-    EncodeOptions options = QuadricOptions(60);
+    EncodeOptions options = SmallOptions(60);
     options.exact = true;
     return Encoded(mesh, options);
   }();

@@ -9,8 +9,7 @@
 namespace folprom::hostile {
 namespace {
 
-Bytes Flipped(size_t bit) {
-  Bytes file = SmallFile();
+Bytes Flipped(Bytes file, size_t bit) {
   file[bit / 8] = static_cast<uint8_t>(file[bit / 8] ^ (1u << (bit % 8)));
   return file;
 }
@@ -33,17 +32,20 @@ bool IsRefused(const Bytes& file) {
   return false;
 }
 
-TEST(FlippedBit, IsRefusedEverywhere) {
+using FlippedBit = SmallFileTest;
+INSTANTIATE_TEST_SUITE_P(Coder, FlippedBit, support::EveryCoder(), support::NameOfCoder);
+
+TEST_P(FlippedBit, IsRefusedEverywhere) {
   for (size_t bit = 0; bit < SmallFile().size() * 8; ++bit) {
-    ASSERT_TRUE(IsRefused(Flipped(bit))) << "bit " << bit;
+    ASSERT_TRUE(IsRefused(Flipped(SmallFile(), bit))) << "bit " << bit;
   }
 }
 
-TEST(FlippedBit, NeverGivesAWrongLod) {
+TEST_P(FlippedBit, NeverGivesAWrongLod) {
   ErrorKind error;
   const auto whole = DecodeLods(SmallFile(), &error);
   for (size_t bit = 0; bit < SmallFile().size() * 8; bit += 13) {
-    const auto lods = DecodeLods(Flipped(bit), &error);
+    const auto lods = DecodeLods(Flipped(SmallFile(), bit), &error);
     ASSERT_LT(lods.size(), whole.size()) << "bit " << bit;
     ASSERT_TRUE(error == ErrorKind::kCorrupt || error == ErrorKind::kInput) << "bit " << bit;
     for (size_t layer = 0; layer < lods.size(); ++layer) {
@@ -52,14 +54,14 @@ TEST(FlippedBit, NeverGivesAWrongLod) {
   }
 }
 
-TEST(FlippedBit, LeavesNoOutputBehind) {
+TEST_P(FlippedBit, LeavesNoOutputBehind) {
   TemporaryFolder folder;
   auto runner = parallel::MakeSerialRunner();
   parallel::Progress progress;
   DecodeOptions options;
   options.temporary_folder = folder.path();
   for (size_t bit = 3; bit < SmallFile().size() * 8; bit += 401) {
-    WriteFile(folder.File("flipped.folp"), Flipped(bit));
+    WriteFile(folder.File("flipped.folp"), Flipped(SmallFile(), bit));
     auto report =
         DecodeFile(folder.File("flipped.folp"), folder.File("out.ply"), options, *runner, progress);
     ASSERT_FALSE(report.ok()) << "bit " << bit;

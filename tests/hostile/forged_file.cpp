@@ -8,6 +8,7 @@
 #include "engine/entropy/bit_coder.h"
 #include "engine/hierarchy/lloyd_tree.h"
 #include "engine/mesh/lattice.h"
+#include "tests/support/coders.h"
 
 namespace folprom::hostile {
 namespace {
@@ -56,6 +57,7 @@ Bytes Forged(const std::vector<Int3>& positions, const std::vector<Face>& faces,
              const std::vector<CrossFace>& cross_faces, uint32_t copies, uint64_t announced_faces) {
   SubtreeChunk chunk{positions, faces, cross_faces, {}};
   CodecParameters parameters;
+  parameters.settings = support::LloydSettings();
   parameters.extent = {kSide, kSide, kSide};
   parameters.schedule = LayerSchedule(parameters.extent, parameters.settings.layers_per_octave,
                                       parameters.settings.rounds_per_layer, 3, 2);

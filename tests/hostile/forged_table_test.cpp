@@ -52,24 +52,28 @@ ErrorKind DecodeFileError(const Parts& parts) {
   return report.error().kind;
 }
 
-Parts Small() { return TakeApart(SmallFile()); }
-
 CodecParameters ParametersIn(const Parts& parts) { return ParametersOf(parts.table); }
 
-template <class Change>
-Parts WithSettings(Change change) {
-  Parts parts = Small();
-  CodecParameters parameters = ParametersIn(parts);
-  change(parameters.settings);
-  parts.table.codec = WriteParameters(parameters);
-  return parts;
-}
+class ForgedTable : public SmallFileTest {
+ protected:
+  static Parts Small() { return TakeApart(SmallFile()); }
 
-TEST(ForgedTable, TakenApartAndPutTogetherIsTheSameFile) {
+  template <class Change>
+  static Parts WithSettings(Change change) {
+    Parts parts = Small();
+    CodecParameters parameters = ParametersIn(parts);
+    change(parameters.settings);
+    parts.table.codec = WriteParameters(parameters);
+    return parts;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Coder, ForgedTable, support::EveryCoder(), support::NameOfCoder);
+
+TEST_P(ForgedTable, TakenApartAndPutTogetherIsTheSameFile) {
   EXPECT_EQ(PutTogether(Small()), SmallFile());
 }
 
-TEST(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
+TEST_P(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   using S = CodecSettings;
@@ -94,7 +98,7 @@ TEST(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
                 "representative");
 }
 
-TEST(ForgedTable, WithAnyByteOfTheSettingsChangedEndsWell) {
+TEST_P(ForgedTable, WithAnyByteOfTheSettingsChangedEndsWell) {
   const Parts small = Small();
   // Each bit flipped, all bits set, none.
   const std::string faults =
@@ -109,7 +113,7 @@ TEST(ForgedTable, WithAnyByteOfTheSettingsChangedEndsWell) {
   EXPECT_EQ(faults, "");
 }
 
-TEST(ForgedTable, WithSettingsCutOrLengthenedIsCorrupt) {
+TEST_P(ForgedTable, WithSettingsCutOrLengthenedIsCorrupt) {
   const Parts small = Small();
   for (size_t size = 0; size <= small.table.codec.size() + 9; ++size) {
     if (size == small.table.codec.size()) continue;
@@ -119,7 +123,7 @@ TEST(ForgedTable, WithSettingsCutOrLengthenedIsCorrupt) {
   }
 }
 
-TEST(ForgedTable, WithAnotherNumberOfLayersThanTheScheduleIsCorrupt) {
+TEST_P(ForgedTable, WithAnotherNumberOfLayersThanTheScheduleIsCorrupt) {
   Parts more = Small();
   more.table.layers.push_back(more.table.layers.back());
   more.segments.resize(more.segments.size() + 2 * more.table.subtrees.size());
@@ -134,7 +138,7 @@ TEST(ForgedTable, WithAnotherNumberOfLayersThanTheScheduleIsCorrupt) {
   ExpectCorrupt(none, "no layer");
 }
 
-TEST(ForgedTable, WithAScheduleOfOtherPartsEndsWell) {
+TEST_P(ForgedTable, WithAScheduleOfOtherPartsEndsWell) {
   // The sum stays that of the table; what is a split layer becomes a refinement and the reverse.
   const Parts small = Small();
   const CodecParameters honest = ParametersIn(small);
@@ -153,7 +157,7 @@ TEST(ForgedTable, WithAScheduleOfOtherPartsEndsWell) {
   }
 }
 
-TEST(ForgedTable, WithASubtreeLargerThanTheSettingsAllowIsCorrupt) {
+TEST_P(ForgedTable, WithASubtreeLargerThanTheSettingsAllowIsCorrupt) {
   uint32_t largest = 0;
   for (const auto& subtree : Small().table.subtrees) largest = std::max(largest, subtree.vertices);
   const auto with_limit = [](uint32_t vertices) {
@@ -164,7 +168,7 @@ TEST(ForgedTable, WithASubtreeLargerThanTheSettingsAllowIsCorrupt) {
   EXPECT_EQ(DecodeFileError(with_limit(largest - 1)), ErrorKind::kCorrupt);
 }
 
-TEST(ForgedTable, WithOtherVertexCountsIsCorrupt) {
+TEST_P(ForgedTable, WithOtherVertexCountsIsCorrupt) {
   for (uint32_t count : {1u, 2u, 50u, 1000000u, 0x7fffffffu, 0xffffffffu}) {
     for (size_t subtree : {size_t{0}, Small().table.subtrees.size() - 1}) {
       Parts parts = Small();
@@ -179,7 +183,7 @@ TEST(ForgedTable, WithOtherVertexCountsIsCorrupt) {
   }
 }
 
-TEST(ForgedTable, WithHugeCountsInEveryPlaceAndNoBytesIsCorrupt) {
+TEST_P(ForgedTable, WithHugeCountsInEveryPlaceAndNoBytesIsCorrupt) {
   Parts parts = Small();
   parts.table.vertices = 0;
   for (auto& subtree : parts.table.subtrees) {
@@ -195,7 +199,7 @@ TEST(ForgedTable, WithHugeCountsInEveryPlaceAndNoBytesIsCorrupt) {
   ExpectCorrupt(parts, "huge counts");
 }
 
-TEST(ForgedTable, WithHugeSegmentsThatAreNotThereHasNoCompleteLayer) {
+TEST_P(ForgedTable, WithHugeSegmentsThatAreNotThereHasNoCompleteLayer) {
   Parts parts = Small();
   const size_t table_bytes = io::ContainerReader::Open(SmallFile(), "small").value().table_bytes();
   // Sizes are part of the table, so the table is written with a file that is then cut to nothing.
@@ -205,7 +209,7 @@ TEST(ForgedTable, WithHugeSegmentsThatAreNotThereHasNoCompleteLayer) {
   EXPECT_EQ(ErrorOf(file), ErrorKind::kCorrupt);
 }
 
-TEST(ForgedTable, WithTheWidestLatticeEndsWell) {
+TEST_P(ForgedTable, WithTheWidestLatticeEndsWell) {
   const Parts small = Small();
   const std::string faults = RunGuarded(200, 20, kAllowedBytes, [&](size_t i) {
     Parts parts = small;
@@ -228,7 +232,7 @@ TEST(ForgedTable, WithTheWidestLatticeEndsWell) {
   EXPECT_EQ(faults, "");
 }
 
-TEST(ForgedTable, WithCountsOfALayerThatDifferFromItsMeshIsCorruptAsAFile) {
+TEST_P(ForgedTable, WithCountsOfALayerThatDifferFromItsMeshIsCorruptAsAFile) {
   const size_t last = Small().table.layers.size() - 1;
   for (int64_t difference : {-1, 1, 1000}) {
     Parts faces = Small();
@@ -242,7 +246,7 @@ TEST(ForgedTable, WithCountsOfALayerThatDifferFromItsMeshIsCorruptAsAFile) {
   EXPECT_EQ(DecodeFileError(fewer), ErrorKind::kCorrupt) << "one vertex fewer";
 }
 
-TEST(ForgedTable, WithMoreFacesThanADiskHoldsIsRefusedAsAFile) {
+TEST_P(ForgedTable, WithMoreFacesThanADiskHoldsIsRefusedAsAFile) {
   for (uint64_t faces : {uint64_t{1} << 40, io::kMaxCount}) {
     Parts parts = Small();
     parts.table.faces = faces;
@@ -253,7 +257,7 @@ TEST(ForgedTable, WithMoreFacesThanADiskHoldsIsRefusedAsAFile) {
   }
 }
 
-TEST(ForgedTable, WithEitherCoordinateTypeEndsWellAsAFile) {
+TEST_P(ForgedTable, WithEitherCoordinateTypeEndsWellAsAFile) {
   for (const uint8_t type : {uint8_t{6}, uint8_t{7}}) {
     Parts parts = Small();
     parts.table.coordinate_type = type;
@@ -263,7 +267,7 @@ TEST(ForgedTable, WithEitherCoordinateTypeEndsWellAsAFile) {
   }
 }
 
-TEST(ForgedTable, WithADigestOfAnotherMeshIsNotLossless) {
+TEST_P(ForgedTable, WithADigestOfAnotherMeshIsNotLossless) {
   for (int part : {0, 1}) {
     Parts parts = Small();
     ++(part == 0 ? parts.table.digest.vertices : parts.table.digest.faces);
@@ -278,7 +282,7 @@ TEST(ForgedTable, WithADigestOfAnotherMeshIsNotLossless) {
   }
 }
 
-TEST(ForgedTable, WithNeighboursThatShareNothingEndsWell) {
+TEST_P(ForgedTable, WithNeighboursThatShareNothingEndsWell) {
   // Seams between all subtrees, and none at all.
   for (bool all : {true, false}) {
     Parts parts = Small();
@@ -298,7 +302,7 @@ TEST(ForgedTable, WithNeighboursThatShareNothingEndsWell) {
   }
 }
 
-TEST(ForgedTable, OfAMeshWithoutVerticesDecodesToNothingOrIsCorrupt) {
+TEST_P(ForgedTable, OfAMeshWithoutVerticesDecodesToNothingOrIsCorrupt) {
   Parts parts = Small();
   parts.table.vertices = parts.table.faces = 0;
   parts.table.subtrees.clear();

@@ -115,10 +115,10 @@ EncodeOptions SmallOptions(uint32_t subtree_vertices) {
   return options;
 }
 
-EncodeOptions QuadricOptions(uint32_t subtree_vertices) {
-  EncodeOptions options = SmallOptions(subtree_vertices);
-  options.codec.hierarchy = Hierarchy::kQuadric;
-  options.codec.offsets = Offsets::kLattice;
+EncodeOptions LloydOptions(uint32_t subtree_vertices) {
+  EncodeOptions options = SmallOptions();
+  options.codec = support::LloydSettings();
+  options.codec.subtree_vertices = subtree_vertices;
   return options;
 }
 
@@ -131,9 +131,10 @@ Bytes Encoded(const TestMesh& mesh, const EncodeOptions& options) {
   return FileContent(folder.File("scan.folp"));
 }
 
-const Bytes& SmallFile() {
-  static const Bytes file = Encoded(RoughTorus(25, 12), SmallOptions());
-  return file;
+const Bytes& SmallFile(Hierarchy hierarchy) {
+  static const Bytes quadric = Encoded(RoughTorus(25, 12), SmallOptions());
+  static const Bytes lloyd = Encoded(RoughTorus(25, 12), LloydOptions());
+  return hierarchy == Hierarchy::kLloyd ? lloyd : quadric;
 }
 
 std::vector<Lod> DecodeLods(std::span<const uint8_t> file, ErrorKind* error) {

@@ -11,6 +11,7 @@
 #include "folprom/decoder.h"
 #include "folprom/folprom.h"
 #include "io/container/file_table.h"
+#include "tests/support/coders.h"
 #include "tests/support/temporary_folder.h"
 
 namespace folprom::hostile {
@@ -40,12 +41,18 @@ std::string PlyBytes(const TestMesh& mesh, PlyForm form = PlyForm::kLittleEndian
 
 /// 9 bits; subtrees of `subtree_vertices` vertices.
 EncodeOptions SmallOptions(uint32_t subtree_vertices = 100);
-/// The same with exact integer offsets.
-EncodeOptions QuadricOptions(uint32_t subtree_vertices = 100);
+/// The same with the coder of the paper.
+EncodeOptions LloydOptions(uint32_t subtree_vertices = 100);
 /// The mesh as a .folp file, encoded serially.
 Bytes Encoded(const TestMesh& mesh, const EncodeOptions& options);
-/// RoughTorus of 302 vertices in four subtrees or more; encoded once per process.
-const Bytes& SmallFile();
+/// RoughTorus of 302 vertices in four subtrees or more; encoded once per process and coder.
+const Bytes& SmallFile(Hierarchy hierarchy);
+
+/// A test of a small file of either coder.
+class SmallFileTest : public ::testing::TestWithParam<support::Coder> {
+ protected:
+  static const Bytes& SmallFile() { return hostile::SmallFile(GetParam().settings.hierarchy); }
+};
 
 /// A level of detail that can be compared. Positions and faces in the order of the decoder.
 struct Lod {

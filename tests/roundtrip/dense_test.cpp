@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tests/support/codec.h"
+#include "tests/support/coders.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/ply.h"
@@ -38,11 +39,21 @@ void ExpectGoodAtEveryLod(const std::string& scan, const TemporaryFolder& folder
   EXPECT_TRUE(by_scan.lossless) << by_scan.reason;
 }
 
-TEST(DenseTest, RandomFacesByTheHundredThousandAreCodedAtEveryLod) {
+class DenseTest : public ::testing::TestWithParam<Coder> {
+ protected:
+  static EncodeOptions Options() {
+    EncodeOptions options;
+    options.codec = GetParam().settings;
+    return options;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Coder, DenseTest, EveryCoder(), NameOfCoder);
+
+TEST_P(DenseTest, RandomFacesByTheHundredThousandAreCodedAtEveryLod) {
   TemporaryFolder folder;
   Mesh mesh = RandomFaces(1500, kSanitized ? 20000 : 200000, 1);
   WritePly(folder.File("scan.ply"), mesh, CoordinateType::kDouble);
-  EncodeOptions options;
+  EncodeOptions options = Options();
   options.bits = 16;
   ExpectGoodAtEveryLod(folder.File("scan.ply"), folder, options, 8);
   EXPECT_EQ(DifferenceOf(mesh, LodOf(folder.File("dense.folp")),
@@ -50,11 +61,11 @@ TEST(DenseTest, RandomFacesByTheHundredThousandAreCodedAtEveryLod) {
             "");
 }
 
-TEST(DenseTest, RandomFacesAcrossSubtreesAreCodedAtEveryLod) {
+TEST_P(DenseTest, RandomFacesAcrossSubtreesAreCodedAtEveryLod) {
   TemporaryFolder folder;
   Mesh mesh = RandomFaces(1500, kSanitized ? 4000 : 40000, 2);
   WritePly(folder.File("scan.ply"), mesh, CoordinateType::kDouble);
-  EncodeOptions options;
+  EncodeOptions options = Options();
   options.bits = 16;
   options.codec.subtree_vertices = 200;
   ExpectGoodAtEveryLod(folder.File("scan.ply"), folder, options, 4);
@@ -63,11 +74,11 @@ TEST(DenseTest, RandomFacesAcrossSubtreesAreCodedAtEveryLod) {
             "");
 }
 
-TEST(DenseTest, ScanWithThirtyThousandNonManifoldEdgesIsCodedAtEveryLod) {
+TEST_P(DenseTest, ScanWithThirtyThousandNonManifoldEdgesIsCodedAtEveryLod) {
   std::string scan = SharedFile("hard/abominevole.ply");
   if (scan.empty()) GTEST_SKIP() << kNoSharedData;
   TemporaryFolder folder;
-  ExpectGoodAtEveryLod(scan, folder, {}, 1);
+  ExpectGoodAtEveryLod(scan, folder, Options(), 1);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/support/codec.h"
+#include "tests/support/coders.h"
 #include "tests/support/files.h"
 #include "tests/support/lod_replay.h"
 #include "tests/support/meshes.h"
@@ -65,13 +66,16 @@ Image ImageOf(const Mesh& original, const std::vector<uint64_t>& representative)
 }
 
 /// A scan coded into a file, and its LODs.
-class LodTest : public ::testing::Test {
+class LodTest : public ::testing::TestWithParam<Coder> {
  protected:
   void Code(const std::string& scan, EncodeOptions options) {
     Encode(scan, folp_, options);
     replay_ = std::make_unique<LodReplay>(scan, folp_);
   }
-  void Code(const Mesh& mesh, uint32_t subtree_vertices, CodecSettings settings = {}) {
+  void Code(const Mesh& mesh, uint32_t subtree_vertices) {
+    Code(mesh, subtree_vertices, GetParam().settings);
+  }
+  void Code(const Mesh& mesh, uint32_t subtree_vertices, const CodecSettings& settings) {
     original_ = mesh;
     std::string scan = folder_.File("scan.ply");
     WritePly(scan, mesh, CoordinateType::kDouble);
@@ -139,56 +143,50 @@ class LodTest : public ::testing::Test {
   std::unique_ptr<LodReplay> replay_;
 };
 
-TEST_F(LodTest, OfASurfaceInManySubtreesIsTheImageOfItsSets) {
+INSTANTIATE_TEST_SUITE_P(Coder, LodTest, EveryCoder(), NameOfCoder);
+
+TEST_P(LodTest, OfASurfaceInManySubtreesIsTheImageOfItsSets) {
   Code(BumpySphere(3000, true, 1), 300);
   EXPECT_GE(replay_->subtrees(), 8u);
   EXPECT_TRUE(replay_->ThreeSubtreesMeet());
   ExpectLodsAreImages();
 }
 
-TEST_F(LodTest, OfTinySubtreesIsTheImageOfItsSets) {
+TEST_P(LodTest, OfTinySubtreesIsTheImageOfItsSets) {
   Code(BumpySphere(300, true, 2), 5);
   EXPECT_GE(replay_->subtrees(), 60u);
   EXPECT_TRUE(replay_->ThreeSubtreesMeet());
   ExpectLodsAreImages();
 }
 
-TEST_F(LodTest, OfOneSubtreeIsTheImageOfItsSets) {
+TEST_P(LodTest, OfOneSubtreeIsTheImageOfItsSets) {
   Code(BumpySphere(2000, true, 3), 1 << 24);
   EXPECT_EQ(replay_->subtrees(), 1u);
   ExpectLodsAreImages();
 }
 
-TEST_F(LodTest, WithLeavesRefinedAtOnceIsTheImageOfItsSets) {
-  CodecSettings settings;
+TEST_P(LodTest, WithLeavesRefinedAtOnceIsTheImageOfItsSets) {
+  CodecSettings settings = GetParam().settings;
   settings.split_first = false;
   settings.children = 3;
   Code(BumpySphere(1500, true, 4), 200, settings);
   ExpectLodsAreImages();
 }
 
-TEST_F(LodTest, OfTheQuadricHierarchyIsTheImageOfItsSets) {
-  CodecSettings settings;
-  settings.hierarchy = Hierarchy::kQuadric;
-  settings.offsets = Offsets::kLattice;
-  Code(BumpySphere(1500, true, 4), 200, settings);
-  ExpectLodsAreImages();
-}
-
-TEST_F(LodTest, OfDenseRandomFacesIsTheImageOfItsSets) {
+TEST_P(LodTest, OfDenseRandomFacesIsTheImageOfItsSets) {
   Code(RandomFaces(60, 2000, 5), 10);
   EXPECT_GE(replay_->subtrees(), 6u);
   EXPECT_TRUE(replay_->ThreeSubtreesMeet());
   ExpectLodsAreImages();
 }
 
-TEST_F(LodTest, OfANonManifoldSoupIsTheImageOfItsSets) {
+TEST_P(LodTest, OfANonManifoldSoupIsTheImageOfItsSets) {
   Code(NonManifoldSoup(300, 600, 6), 40);
   EXPECT_GE(replay_->subtrees(), 8u);
   ExpectLodsAreImages();
 }
 
-TEST_F(LodTest, OfDegenerateFacesAcrossSubtreesIsTheImageOfItsSets) {
+TEST_P(LodTest, OfDegenerateFacesAcrossSubtreesIsTheImageOfItsSets) {
   Mesh mesh = RandomFaces(80, 0, 7);
   for (uint64_t v = 0; v < 80; ++v) {
     mesh.faces.push_back({v, (v + 1) % 80, v});
@@ -199,12 +197,13 @@ TEST_F(LodTest, OfDegenerateFacesAcrossSubtreesIsTheImageOfItsSets) {
   ExpectLodsAreImages();
 }
 
-TEST_F(LodTest, OfAScanIsTheImageOfItsSets) {
+TEST_P(LodTest, OfAScanIsTheImageOfItsSets) {
   std::string scan = SharedFile("hard/dragon_vrip_res2.ply");
   if (scan.empty()) GTEST_SKIP() << kNoSharedData;
   if (kSanitized) GTEST_SKIP() << "too large for a build with sanitizers";
   original_ = ReadPly(scan).mesh;
   EncodeOptions options;
+  options.codec = GetParam().settings;
   options.codec.subtree_vertices = 20000;
   Code(scan, options);
   size_t last_split = replay_->split_layers() - 1;
@@ -214,7 +213,7 @@ TEST_F(LodTest, OfAScanIsTheImageOfItsSets) {
   });
 }
 
-TEST_F(LodTest, OfTheWholeProgramIsThatOfTheDecoderInMemory) {
+TEST_P(LodTest, OfTheWholeProgramIsThatOfTheDecoderInMemory) {
   Code(BumpySphere(2500, true, 8), 300);
   std::vector<Mesh> lods = EveryLod(folp_);
   ASSERT_EQ(lods.size(), replay_->layers());

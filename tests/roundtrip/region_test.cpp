@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/support/codec.h"
+#include "tests/support/coders.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/ply.h"
@@ -43,11 +44,12 @@ Mesh PartInside(const Mesh& mesh, const Box& box) {
   return part;
 }
 
-class RegionTest : public ::testing::Test {
+class RegionTest : public ::testing::TestWithParam<Coder> {
  protected:
   void Code(const Mesh& mesh, uint32_t subtree_vertices) {
     WritePly(folder_.File("scan.ply"), mesh, CoordinateType::kDouble);
     EncodeOptions options;
+    options.codec = GetParam().settings;
     options.codec.subtree_vertices = subtree_vertices;
     subtrees_ = Encode(folder_.File("scan.ply"), folp_, options).subtrees;
   }
@@ -74,6 +76,8 @@ class RegionTest : public ::testing::Test {
   uint64_t subtrees_ = 0;
 };
 
+INSTANTIATE_TEST_SUITE_P(Coder, RegionTest, EveryCoder(), NameOfCoder);
+
 std::vector<Box> Boxes() {
   return {{"Everything", {-9, -9, -9}, {9, 9, 9}},
           {"BesideTheMesh", {5, 5, 5}, {6, 6, 6}},
@@ -84,14 +88,14 @@ std::vector<Box> Boxes() {
           {"SmallPatch", {0.9, -0.2, -0.2}, {1.3, 0.1, 0.1}}};
 }
 
-TEST_F(RegionTest, HoldsTheVerticesInsideAndTheFacesBetweenThem) {
+TEST_P(RegionTest, HoldsTheVerticesInsideAndTheFacesBetweenThem) {
   Code(BumpySphere(4000, true, 1), 300);
   ASSERT_GE(subtrees_, 12u);
   Mesh whole = LodOf(folp_);
   for (const Box& box : Boxes()) ExpectPart(whole, box, 0);
 }
 
-TEST_F(RegionTest, OfAnLodIsThePartOfThatLod) {
+TEST_P(RegionTest, OfAnLodIsThePartOfThatLod) {
   Code(BumpySphere(4000, true, 2), 300);
   std::vector<Mesh> lods = EveryLod(folp_);
   for (uint32_t layers = 1; layers <= lods.size(); layers += 3) {
@@ -99,13 +103,13 @@ TEST_F(RegionTest, OfAnLodIsThePartOfThatLod) {
   }
 }
 
-TEST_F(RegionTest, OfANonManifoldSoupHoldsItsDegenerateAndRepeatedFaces) {
+TEST_P(RegionTest, OfANonManifoldSoupHoldsItsDegenerateAndRepeatedFaces) {
   Code(NonManifoldSoup(400, 1500, 3), 60);
   Mesh whole = LodOf(folp_);
   for (const Box& box : Boxes()) ExpectPart(whole, box, 0);
 }
 
-TEST_F(RegionTest, OfOnePointHoldsTheVertexThere) {
+TEST_P(RegionTest, OfOnePointHoldsTheVertexThere) {
   Code(BumpySphere(1500, false, 4), 200);
   Mesh whole = LodOf(folp_);
   for (size_t v = 0; v < whole.positions.size(); v += 300) {
@@ -114,7 +118,7 @@ TEST_F(RegionTest, OfOnePointHoldsTheVertexThere) {
 }
 
 /// The representative of a coarse LOD can lie outside the box of the vertices it stands for.
-TEST_F(RegionTest, OfOnePointHoldsTheLodVertexThere) {
+TEST_P(RegionTest, OfOnePointHoldsTheLodVertexThere) {
   Code(BumpySphere(1500, true, 7), 200);
   std::vector<Mesh> lods = EveryLod(folp_);
   for (uint32_t layers = 1; layers <= lods.size(); layers += 2) {
@@ -126,7 +130,7 @@ TEST_F(RegionTest, OfOnePointHoldsTheLodVertexThere) {
   }
 }
 
-TEST_F(RegionTest, ReadsOnlyPartOfTheFile) {
+TEST_P(RegionTest, ReadsOnlyPartOfTheFile) {
   Code(BumpySphere(6000, false, 5), 300);
   Box patch{"Patch", {0.9, -0.2, -0.2}, {1.3, 0.1, 0.1}};
   DecodeReport part = DecodeBox(patch, 0);
@@ -135,7 +139,7 @@ TEST_F(RegionTest, ReadsOnlyPartOfTheFile) {
   EXPECT_LT(part.bytes_read, FileBytes(folp_).size() / 2);
 }
 
-TEST_F(RegionTest, UpsideDownIsRefused) {
+TEST_P(RegionTest, UpsideDownIsRefused) {
   Code(BumpySphere(200, false, 6), 100);
   DecodeOptions options;
   options.use_region = true;

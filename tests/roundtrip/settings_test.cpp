@@ -8,6 +8,7 @@
 
 #include "folprom/settings_keys.h"
 #include "tests/support/codec.h"
+#include "tests/support/coders.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/ply.h"
@@ -31,9 +32,9 @@ std::string NameOf(std::string_view key, double value) {
   return text;
 }
 
-/// Each key of the config at both ends of its range, at each choice, on and off; all else as it is
-/// by default.
-std::vector<Case> EverySetting() {
+/// Each key of the config at both ends of its range, at each choice, on and off; all else as in
+/// `coder`.
+std::vector<Case> EverySetting(const CodecSettings& coder) {
   std::vector<Case> cases;
   for (const SettingKey& key : SettingKeys()) {
     std::visit(
@@ -47,12 +48,10 @@ std::vector<Case> EverySetting() {
               values.push_back(static_cast<double>(i));
           }
           for (double value : values) {
-            Case one{NameOf(key.name, value), {}};
+            Case one{NameOf(key.name, value), coder};
             one.settings.*member = static_cast<Value>(value);
-            if (one.settings.offsets == Offsets::kLattice) {
-              one.settings.hierarchy = Hierarchy::kQuadric;
-            }
-            cases.push_back(one);
+            // Lattice offsets go with the quadric hierarchy only.
+            if (CheckSettings(one.settings)) cases.push_back(one);
           }
         },
         key.member);
@@ -64,54 +63,52 @@ std::vector<Case> EverySetting() {
 std::vector<Case> Combinations() {
   std::vector<Case> cases;
   for (uint32_t children = 2; children <= 8; ++children) {
-    CodecSettings settings;
+    CodecSettings settings = LloydSettings();
     settings.children = children;
     cases.push_back({"Children" + std::to_string(children), settings});
   }
-  CodecSettings off;
+  CodecSettings off = LloydSettings();
   off.normal_metric = off.adaptive_quantisation = off.predict_theta = off.predict_height = false;
   off.split_first = off.fan_cuts = off.pivot_order = off.nearer_child = false;
   off.representative = Representative::kCentre;
   cases.push_back({"EveryTechniqueOff", off});
   for (double first : {0.0, 0.3, 1.0}) {
     CodecSettings settings;
-    settings.hierarchy = Hierarchy::kQuadric;
-    settings.offsets = Offsets::kLattice;
     settings.distortion_first = first;
     settings.layers_per_octave = first == 0 ? 1 : 4;
     cases.push_back({NameOf("QuadricLattice", first), settings});
   }
-  CodecSettings coarse;
+  CodecSettings coarse = LloydSettings();
   coarse.quantisation_levels = 2;
   coarse.children = 8;
   coarse.split_first = false;
   cases.push_back({"CoarseOffsetsRefinedAtOnce", coarse});
-  CodecSettings fine;
+  CodecSettings fine = LloydSettings();
   fine.quantisation_levels = 4096;
   fine.children = 2;
   fine.adaptive_quantisation = false;
   cases.push_back({"FineOffsetsOfPairs", fine});
-  CodecSettings plain;
+  CodecSettings plain = LloydSettings();
   plain.offsets = Offsets::kCartesian;
   plain.children = 7;
   plain.quantisation_levels = 5;
   plain.adaptive_quantisation = plain.predict_height = plain.split_first = false;
   cases.push_back({"CartesianOffsetsRefinedAtOnce", plain});
-  CodecSettings many;
+  CodecSettings many = LloydSettings();
   many.layers_per_octave = 8;
   many.rounds_per_layer = 16;
   many.split_first = false;
   cases.push_back({"ManyLayersOfManyRounds", many});
-  CodecSettings few;
+  CodecSettings few = LloydSettings();
   few.layers_per_octave = few.rounds_per_layer = 1;
   few.lloyd_iterations = 1;
   few.lloyd_threshold = 1;
   cases.push_back({"FewLayersOfPoorSplits", few});
-  CodecSettings asked;
+  CodecSettings asked = LloydSettings();
   asked.distortion_first = 1;
   asked.representative = Representative::kCurvature;
   cases.push_back({"EverySplitAskedFor", asked});
-  CodecSettings spaced;
+  CodecSettings spaced = LloydSettings();
   spaced.distortion_first = 0;
   cases.push_back({"NoSplitAskedFor", spaced});
   return cases;
@@ -149,7 +146,9 @@ TEST_P(SettingsTest, BringsANonManifoldSoupBack) {
 }
 
 auto NameOfCase = [](const auto& info) { return info.param.name; };
-INSTANTIATE_TEST_SUITE_P(Key, SettingsTest, ::testing::ValuesIn(EverySetting()), NameOfCase);
+INSTANTIATE_TEST_SUITE_P(Key, SettingsTest, ::testing::ValuesIn(EverySetting({})), NameOfCase);
+INSTANTIATE_TEST_SUITE_P(LloydKey, SettingsTest, ::testing::ValuesIn(EverySetting(LloydSettings())),
+                         NameOfCase);
 INSTANTIATE_TEST_SUITE_P(Combination, SettingsTest, ::testing::ValuesIn(Combinations()),
                          NameOfCase);
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tests/support/codec.h"
+#include "tests/support/coders.h"
 #include "tests/support/files.h"
 #include "tests/support/ply.h"
 
@@ -14,12 +15,13 @@ namespace {
 
 constexpr uint32_t kOneSubtree = 1 << 24;
 
-using Param = std::tuple<std::string, uint32_t, uint32_t>;  // file, bits, subtree_vertices
+/// file, bits, subtree_vertices, settings
+using Param = std::tuple<std::string, uint32_t, uint32_t, CodecSettings>;
 
 class SharedScanTest : public ::testing::TestWithParam<Param> {};
 
 TEST_P(SharedScanTest, ComesBackWhole) {
-  auto [name, bits, subtree_vertices] = GetParam();
+  auto [name, bits, subtree_vertices, settings] = GetParam();
   if (name.empty()) GTEST_SKIP() << kNoSharedData;
   std::string scan = SharedFile(name);
   if (kSanitized && std::filesystem::file_size(scan) > 1000000) {
@@ -29,6 +31,7 @@ TEST_P(SharedScanTest, ComesBackWhole) {
   std::string folp = folder.File("scan.folp"), out = folder.File("out.ply");
   auto runner = parallel::MakeTbbRunner(2);
   EncodeOptions options;
+  options.codec = settings;
   options.bits = bits;
   options.codec.subtree_vertices = subtree_vertices;
   EncodeReport encoded = Encode(scan, folp, options, runner.get());
@@ -54,21 +57,27 @@ std::vector<std::string> ScansOrNone() {
   return names;
 }
 
+auto NameOfParam = [](const auto& given) {
+  std::string file = std::get<0>(given.param);
+  std::string name = file.empty() ? "NoData" : std::filesystem::path(file).stem().string();
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  uint32_t vertices = std::get<2>(given.param);
+  return name + "_" + std::to_string(std::get<1>(given.param)) + "Bits_" +
+         (vertices == kOneSubtree ? "OneSubtree" : "Subtrees");
+};
+
 INSTANTIATE_TEST_SUITE_P(All, SharedScanTest,
                          ::testing::Combine(::testing::ValuesIn(ScansOrNone()),
                                             ::testing::Values(12u, 16u),
-                                            ::testing::Values(kOneSubtree, 20000u)),
-                         [](const auto& given) {
-                           std::string file = std::get<0>(given.param);
-                           std::string name = file.empty()
-                                                  ? "NoData"
-                                                  : std::filesystem::path(file).stem().string();
-                           for (char& c : name)
-                             c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-                           uint32_t vertices = std::get<2>(given.param);
-                           return name + "_" + std::to_string(std::get<1>(given.param)) + "Bits_" +
-                                  (vertices == kOneSubtree ? "OneSubtree" : "Subtrees");
-                         });
+                                            ::testing::Values(kOneSubtree, 20000u),
+                                            ::testing::Values(CodecSettings())),
+                         NameOfParam);
+INSTANTIATE_TEST_SUITE_P(Lloyd, SharedScanTest,
+                         ::testing::Combine(::testing::ValuesIn(ScansOrNone()),
+                                            ::testing::Values(16u),
+                                            ::testing::Values(kOneSubtree, 20000u),
+                                            ::testing::Values(LloydSettings())),
+                         NameOfParam);
 
 }  // namespace
 }  // namespace folprom::support

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/support/codec.h"
+#include "tests/support/coders.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/ply.h"
@@ -18,9 +19,11 @@ constexpr uint32_t kOneSubtree = 1 << 24;
 struct Case {
   SmallMesh small;
   uint32_t subtree_vertices;
+  Coder coder;
 };
 void PrintTo(const Case& given, std::ostream* out) {
-  *out << given.small.name << " in subtrees of " << given.subtree_vertices;
+  *out << given.coder.name << ' ' << given.small.name << " in subtrees of "
+       << given.subtree_vertices;
 }
 
 class SmallMeshTest : public ::testing::TestWithParam<Case> {
@@ -28,6 +31,7 @@ class SmallMeshTest : public ::testing::TestWithParam<Case> {
   const SmallMesh& small() const { return GetParam().small; }
   EncodeOptions Options() const {
     EncodeOptions options;
+    options.codec = GetParam().coder.settings;
     options.bits = small().bits;
     options.codec.subtree_vertices = GetParam().subtree_vertices;
     return options;
@@ -67,24 +71,30 @@ TEST_P(SmallMeshTest, ComesBackWhole) {
 
 /// Every mesh in one subtree and in subtrees of several sizes; thousands of subtrees cost time and
 /// prove nothing more.
-std::vector<Case> EveryMeshInSubtrees() {
+std::vector<Case> EveryMeshInSubtrees(const Coder& coder) {
   constexpr uint64_t kMostSubtrees = 1200;
   std::vector<Case> cases;
   for (const SmallMesh& small : SmallMeshes()) {
     uint64_t vertices = small.make().positions.size();
     for (uint32_t subtree_vertices : {kOneSubtree, 50u, 7u, 1u}) {
-      if (vertices / subtree_vertices <= kMostSubtrees) cases.push_back({small, subtree_vertices});
+      if (vertices / subtree_vertices <= kMostSubtrees) {
+        cases.push_back({small, subtree_vertices, coder});
+      }
     }
   }
   return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(InSubtreesOf, SmallMeshTest, ::testing::ValuesIn(EveryMeshInSubtrees()),
-                         [](const auto& given) {
-                           uint32_t vertices = given.param.subtree_vertices;
-                           return given.param.small.name + "_" +
-                                  (vertices == kOneSubtree ? "All" : std::to_string(vertices));
-                         });
+auto NameOfCase = [](const auto& given) {
+  const uint32_t vertices = given.param.subtree_vertices;
+  return given.param.small.name + "_" +
+         (vertices == kOneSubtree ? "All" : std::to_string(vertices));
+};
+INSTANTIATE_TEST_SUITE_P(InSubtreesOf, SmallMeshTest,
+                         ::testing::ValuesIn(EveryMeshInSubtrees({"Quadric", {}})), NameOfCase);
+INSTANTIATE_TEST_SUITE_P(LloydInSubtreesOf, SmallMeshTest,
+                         ::testing::ValuesIn(EveryMeshInSubtrees({"Lloyd", LloydSettings()})),
+                         NameOfCase);
 
 /// Counts, positions and faces are compared above; that the comparison itself sees faults is proven
 /// here.

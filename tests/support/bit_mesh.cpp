@@ -97,8 +97,6 @@ std::string DifferenceOfBits(const BitMesh& a, const BitMesh& b) {
 EncodeOptions ExactOptions(uint32_t subtree_vertices) {
   EncodeOptions options;
   options.exact = true;
-  options.codec.hierarchy = Hierarchy::kQuadric;
-  options.codec.offsets = Offsets::kLattice;
   options.codec.subtree_vertices = subtree_vertices;
   return options;
 }

@@ -28,8 +28,8 @@ enum class Representative : uint8_t {
 /// Settings of the coder. The same values and the same scan give the same bytes. Each field is a
 /// key of the [codec] table of a config file, by the same name.
 struct CodecSettings {
-  Hierarchy hierarchy = Hierarchy::kLloyd;
-  Offsets offsets = Offsets::kCylindrical;
+  Hierarchy hierarchy = Hierarchy::kQuadric;
+  Offsets offsets = Offsets::kLattice;
 
   uint32_t subtree_vertices = 65536;  ///< largest subtree; 1 .. 16,777,216
   /// Subtrees are cut by the metric of section 2.1. false: by Euclidean distance, which makes them

@@ -15,6 +15,8 @@ constexpr Int3 kExtent{100000, 250000, 7};
 CodecParameters Some() {
   CodecParameters parameters;
   parameters.extent = kExtent;
+  parameters.settings.hierarchy = Hierarchy::kLloyd;
+  parameters.settings.offsets = Offsets::kCartesian;
   parameters.settings.children = 7;
   parameters.settings.metric_b = 3.5;
   parameters.settings.split_first = false;
@@ -36,6 +38,8 @@ void ExpectCorrupt(const std::vector<uint8_t>& bytes, const Int3& extent = kExte
 
 TEST(CodecParameters, ComeBackFromTheirBytes) {
   const CodecParameters read = ReadParameters(WriteParameters(Some()), kExtent);
+  EXPECT_EQ(read.settings.hierarchy, Hierarchy::kLloyd);
+  EXPECT_EQ(read.settings.offsets, Offsets::kCartesian);
   EXPECT_EQ(read.settings.children, 7u);
   EXPECT_EQ(read.settings.metric_b, 3.5);
   EXPECT_FALSE(read.settings.split_first);

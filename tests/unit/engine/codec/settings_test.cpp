@@ -46,10 +46,11 @@ TEST(CheckOptions, RefusesTolerancesThatAreNone) {
 TEST(CheckOptions, RefusesExactWithoutLatticeOffsets) {
   EncodeOptions options;
   options.exact = true;
-  EXPECT_NE(UsageErrorOf(options).find("exact"), std::string::npos);
-  options.codec.hierarchy = Hierarchy::kQuadric;
-  options.codec.offsets = Offsets::kLattice;
   EXPECT_EQ(UsageErrorOf(options), "");
+  options.codec.offsets = Offsets::kCylindrical;
+  EXPECT_NE(UsageErrorOf(options).find("exact"), std::string::npos);
+  options.codec.hierarchy = Hierarchy::kLloyd;
+  EXPECT_NE(UsageErrorOf(options).find("exact"), std::string::npos);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "engine/codec/border_file.h"
 #include "engine/codec/encode_subtree.h"
 #include "engine/entropy/bit_coder.h"
+#include "tests/support/coders.h"
 
 namespace folprom {
 namespace {
@@ -73,17 +74,24 @@ Chunk Soup(uint64_t seed) {
   return chunk;
 }
 
-CodecParameters ParametersFor(uint32_t children, bool split_first) {
+CodecParameters ParametersFor(const CodecSettings& settings) {
   CodecParameters parameters;
   parameters.extent = {kSide, kSide, kSide};
-  parameters.settings.children = children;
-  parameters.settings.split_first = split_first;
+  parameters.settings = settings;
   const uint32_t per_octave = parameters.settings.layers_per_octave;
   parameters.schedule = LayerSchedule(
       parameters.extent, per_octave, parameters.settings.rounds_per_layer,
       SplitLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets),
       RefineLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets));
   return parameters;
+}
+
+/// Of the coder of the paper.
+CodecParameters ParametersFor(uint32_t children, bool split_first) {
+  CodecSettings settings = support::LloydSettings();
+  settings.children = children;
+  settings.split_first = split_first;
+  return ParametersFor(settings);
 }
 
 /// Faces by their corners in the chunk's own numbers, rotated to the smallest, sorted.
@@ -148,6 +156,7 @@ void ExpectComesBack(const Chunk& chunk, const CodecParameters& parameters) {
 }
 
 TEST(SubtreeCoder, GivesBackASheet) {
+  ASSERT_NO_FATAL_FAILURE(ExpectComesBack(Sheet(25), ParametersFor(CodecSettings())));
   for (uint32_t children : {2u, 4u, 8u}) {
     for (bool split_first : {true, false}) {
       ASSERT_NO_FATAL_FAILURE(ExpectComesBack(Sheet(25), ParametersFor(children, split_first)));
@@ -157,6 +166,7 @@ TEST(SubtreeCoder, GivesBackASheet) {
 
 TEST(SubtreeCoder, GivesBackSoupsWithBorders) {
   for (uint64_t seed = 0; seed < 150; ++seed) {
+    ASSERT_NO_FATAL_FAILURE(ExpectComesBack(Soup(seed), ParametersFor(CodecSettings()))) << seed;
     ASSERT_NO_FATAL_FAILURE(ExpectComesBack(
         Soup(seed), ParametersFor(2 + static_cast<uint32_t>(seed % 7), seed % 2 == 0)))
         << seed;
@@ -164,10 +174,9 @@ TEST(SubtreeCoder, GivesBackSoupsWithBorders) {
 }
 
 TEST(SubtreeCoder, TakesFewerBytesForASheetThanForASoup) {
-  auto bytes = [](const Chunk& chunk) {
+  auto bytes = [](const Chunk& chunk, const CodecParameters& parameters) {
     size_t sum = 0;
-    for (const auto& s :
-         EncodeSubtree(chunk.view(), chunk.summary(), 0, ParametersFor(4, true)).segments) {
+    for (const auto& s : EncodeSubtree(chunk.view(), chunk.summary(), 0, parameters).segments) {
       sum += s.size();
     }
     return sum;
@@ -175,15 +184,18 @@ TEST(SubtreeCoder, TakesFewerBytesForASheetThanForASoup) {
   Chunk shuffled = Sheet(25);
   std::mt19937_64 random(1);
   std::shuffle(shuffled.positions.begin(), shuffled.positions.end(), random);
-  EXPECT_LT(3 * bytes(Sheet(25)), 2 * bytes(shuffled));
+  for (const auto& parameters : {ParametersFor(CodecSettings()), ParametersFor(4, true)}) {
+    EXPECT_LT(3 * bytes(Sheet(25), parameters), 2 * bytes(shuffled, parameters));
+  }
 }
 
 TEST(SubtreeCoder, DistancesBoundWhatIsDecoded) {
   const Chunk chunk = Sheet(25);
-  const EncodedSubtree encoded =
-      EncodeSubtree(chunk.view(), chunk.summary(), 0, ParametersFor(4, true));
-  EXPECT_LT(encoded.distance.back(), encoded.distance.front() / 10);
-  EXPECT_LE(encoded.distance.back(), 31 * std::sqrt(3.0));
+  for (const auto& parameters : {ParametersFor(CodecSettings()), ParametersFor(4, true)}) {
+    const EncodedSubtree encoded = EncodeSubtree(chunk.view(), chunk.summary(), 0, parameters);
+    EXPECT_LT(encoded.distance.back(), encoded.distance.front() / 10);
+    EXPECT_LE(encoded.distance.back(), 31 * std::sqrt(3.0));
+  }
 }
 
 TEST(BorderFile, ComesBackFromTheSpill) {

@@ -25,8 +25,6 @@ class Counter : public LearnedStateVisitor {
 
 CodecParameters LatticeParameters(bool trained) {
   CodecParameters parameters;
-  parameters.settings.hierarchy = Hierarchy::kQuadric;
-  parameters.settings.offsets = Offsets::kLattice;
   parameters.settings.trained = trained;
   parameters.extent = {4095, 4095, 4095};
   return parameters;

@@ -1,5 +1,6 @@
 #include <array>
 #include <charconv>
+#include <iterator>
 #include <string>
 #include <type_traits>
 
@@ -72,6 +73,14 @@ constexpr SettingKey kKeys[] = {
      "layers", 1, 8},
     {"rounds_per_layer", &S::rounds_per_layer,
      "steps in which a layer works down from its largest spacing", "rounds", 1, 16},
+    {"effort", &S::effort,
+     "1 fastest .. 9 smallest: sets subtree_vertices, density_step and mixers where they are not "
+     "given beside it",
+     "", 1, 9},
+    {"density_step", &S::density_step,
+     "between cells of the density over the tangent plane, with offsets = \"lattice\"; 0: none",
+     "twentieths of the spacing", 0, 4},
+    {"mixers", &S::mixers, "mixers that a decision averages, with offsets = \"lattice\"", "", 1, 2},
 };
 
 std::string NumberText(double value) {
@@ -108,6 +117,25 @@ Result<void> CheckValue(const SettingKey& key, T value) {
 }  // namespace
 
 std::span<const SettingKey> SettingKeys() { return kKeys; }
+
+CodecSettings WithEffort(CodecSettings settings, uint32_t effort) {
+  struct Preset {
+    uint32_t density_step, mixers, subtree_vertices;
+  };
+  // Measured in tests/bench/RESULTS.md. Small subtrees are faster for they fit into the caches,
+  // large ones smaller for they have fewer seams and models learn longer.
+  constexpr uint32_t k = 1024;
+  constexpr Preset kPresets[] = {{0, 1, 16 * k},  {0, 1, 32 * k},  {4, 1, 32 * k},
+                                 {3, 1, 64 * k},  {2, 1, 64 * k},  {2, 2, 128 * k},
+                                 {1, 2, 128 * k}, {1, 2, 256 * k}, {1, 2, 1024 * k}};
+  settings.effort = effort;
+  if (effort < 1 || effort > std::size(kPresets)) return settings;
+  const Preset& preset = kPresets[effort - 1];
+  settings.density_step = preset.density_step;
+  settings.mixers = preset.mixers;
+  settings.subtree_vertices = preset.subtree_vertices;
+  return settings;
+}
 
 Result<void> CheckSettings(const CodecSettings& settings) {
   for (const SettingKey& key : kKeys) {

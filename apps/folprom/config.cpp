@@ -136,9 +136,16 @@ std::string RangeText(const Key& key) {
 
 class ConfigReader {
  public:
-  ConfigReader(const std::string& path, EncodeConfig* config) : path_(path), keys_(Keys(*config)) {}
+  ConfigReader(const std::string& path, EncodeConfig* config)
+      : path_(path), config_(config), keys_(Keys(*config)) {}
 
   void Read(const toml::table& root) {
+    // First, so that whatever else the file gives wins over it.
+    if (const toml::node* effort = root["codec"]["effort"].node()) {
+      ReadKey("codec", "effort", *effort);
+      CodecSettings& codec = config_->options.codec;
+      codec = WithEffort(codec, codec.effort);
+    }
     for (const auto& [table_name, node] : root) {
       const std::string_view table = table_name.str();
       if (!node.is_table()) {
@@ -259,6 +266,7 @@ class ConfigReader {
   }
 
   std::string path_;
+  EncodeConfig* config_;
   std::vector<Key> keys_;
 };
 

@@ -22,7 +22,7 @@ constexpr const char* kDescription =
     "  folprom encode scan.ply -o scan.folp\n"
     "  folprom encode scan.ply -o scan.folp --bits 16 -T 8 -M 4GiB\n"
     "  folprom encode scan.ply -o scan.folp --config configs/paper.toml\n"
-    "  folprom encode scan.ply -o scan.folp --exact\n"
+    "  folprom encode scan.ply -o scan.folp --exact --effort 9\n"
     "  folprom encode --print-config > my.toml";
 
 struct EncodeFlags {
@@ -31,6 +31,7 @@ struct EncodeFlags {
   std::string input;
   std::string output;
   std::string config;
+  std::optional<uint32_t> effort;
   std::optional<uint32_t> bits;
   std::optional<double> tolerance;
   bool exact = false;
@@ -44,6 +45,7 @@ EncodeConfig Settings(const EncodeFlags& flags) {
   EncodeConfig config;
   if (!flags.config.empty()) ReadConfig(flags.config, &config).value();
   EncodeOptions& options = config.options;
+  if (flags.effort) options.codec = WithEffort(options.codec, *flags.effort);
   if (flags.bits) {
     options.bits = *flags.bits;
     options.tolerance = 0;
@@ -149,6 +151,10 @@ Verb AddEncode(CLI::App& program) {
   verb->add_flag("--exact", flags->exact, "Positions come back bit for bit, NaN and all")
       ->excludes(bits)
       ->excludes(tolerance);
+  verb->add_option("--effort", flags->effort,
+                   "1 fastest .. 9 smallest file; wins over the settings, other flags over it")
+      ->check(CLI::Range(1, 9))
+      ->type_name("N");
   AddCountOption(verb, "--subtree-vertices", &flags->subtree_vertices,
                  "Largest subtree in vertices, 20k");
   verb->add_flag("--print-config", flags->print_config,

@@ -107,8 +107,10 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
   auto out = std::back_inserter(text);
   fmt::format_to(out, "{}: format {}, {} vertices, {} faces\n", path, info.format_version,
                  Grouped(info.vertices), Grouped(info.faces));
-  fmt::format_to(out, "{} bytes, {:.2f} bits per vertex, {} subtrees, tolerance {:.6g}\n",
-                 Grouped(info.bytes), BitsPerVertex(info), Grouped(info.subtrees), info.tolerance);
+  fmt::format_to(out,
+                 "{} bytes, {:.2f} bits per vertex, {} subtrees, tolerance {:.6g}, effort {}\n",
+                 Grouped(info.bytes), BitsPerVertex(info), Grouped(info.subtrees), info.tolerance,
+                 info.codec.effort);
   if (info.exact) {
     fmt::format_to(out, "exact: every bit of a {}, on a lattice of {}^{} of {:.2f} bits{}\n",
                    info.exact->is_float ? "float32" : "float64", info.exact->radix,

@@ -116,6 +116,10 @@ OffsetSettings CodecParameters::offsets() const {
           settings.offsets == Offsets::kCartesian};
 }
 
+LatticeSettings CodecParameters::lattice() const {
+  return {settings.density_step, settings.mixers};
+}
+
 ConnectivitySettings CodecParameters::connectivity() const {
   return {settings.fan_cuts, settings.pivot_order, settings.nearer_child};
 }

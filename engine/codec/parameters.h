@@ -8,6 +8,7 @@
 
 #include "engine/connectivity/split_coder.h"
 #include "engine/entropy/initial_statistics.h"
+#include "engine/geometry/lattice_coder.h"
 #include "engine/geometry/offset_coder.h"
 #include "engine/mesh/exact_lattice.h"
 #include "engine/mesh/types.h"
@@ -74,6 +75,7 @@ struct CodecParameters {
   const InitialStatistics* start() const;
   OffsetSettings offsets() const;
   ConnectivitySettings connectivity() const;
+  LatticeSettings lattice() const;
 };
 
 /// The codec's own bytes in the table of the file, and back. The schedule's counts are part of

@@ -70,7 +70,7 @@ SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape
       border_side_({1}),
       exceptions_(shape.mesh_faces) {
   if (parameters.settings.offsets == Offsets::kLattice) {
-    lattice_coder_.emplace(shape.box_lo, shape.box_hi);
+    lattice_coder_.emplace(shape.box_lo, shape.box_hi, parameters.lattice());
   } else {
     offset_coder_.emplace(parameters.offsets());
   }

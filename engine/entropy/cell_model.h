@@ -51,7 +51,7 @@ struct CellPrediction {
 
 /// A density on the line of which cell k covers [k, k + 1) * cell - origin.
 struct CellDensity {
-  const AxisDensity* axis = nullptr;
+  const AxisDensity* axis = nullptr;  ///< null: says nothing
   double origin = 0;
   double cell = 1;
 };
@@ -73,7 +73,7 @@ class ScaleTable {
   std::vector<LearnedScale> entries_;
 };
 
-/// N contexts, P predictions and, where M is 1, a density that the caller measured.
+/// N contexts, P predictions and, where M is 1, a density that the caller may have measured.
 template <size_t N, size_t P, size_t M = 0>
 class CellModel {
  public:
@@ -82,7 +82,8 @@ class CellModel {
   static constexpr uint32_t kOctaves = 10;
   static constexpr uint32_t kSlots = 1 + 2 * kOctaves + 2 * kOctaves + 1;
 
-  explicit CellModel(std::array<uint32_t, N> sizes) : decisions_(Scaled(sizes), kSlots) {}
+  explicit CellModel(std::array<uint32_t, N> sizes, uint32_t mixers = 1)
+      : decisions_(Scaled(sizes), kSlots, mixers) {}
 
   /// Codes value in [lo, hi]. Decisions that the range makes certain cost nothing.
   template <class Coder>
@@ -147,6 +148,10 @@ class CellModel {
     std::array<Ends, P + M> ends;
     for (size_t p = 0; p < P; ++p) ends[p] = Tail(predictions[p], at);
     if constexpr (M > 0) {
+      if (density.axis == nullptr) {
+        ends[P] = {0.5, 0.5};
+        return ends;
+      }
       double left = density.axis->Below(density.cell * static_cast<double>(at) - density.origin);
       ends[P] = {left, 1 - left};
     }
@@ -163,6 +168,10 @@ class CellModel {
     std::array<Ends, P + M> here = Tails(predictions, *interval->density, at);
     std::array<int32_t, P + M> inputs;
     for (size_t p = 0; p < P + M; ++p) {
+      if (p == P && interval->density->axis == nullptr) {
+        inputs[p] = 0;
+        continue;
+      }
       bool leftward = here[p].left < here[p].right;
       double low = leftward ? here[p].left - interval->below[p].left
                             : interval->below[p].right - here[p].right;

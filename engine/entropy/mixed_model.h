@@ -44,14 +44,17 @@ inline constexpr auto kRate = [] {
 }();
 }  // namespace detail
 
-/// N contexts that learn, E predictions from outside, and a mixer with `sets` weight vectors.
+/// N contexts that learn, E predictions from outside, and a mixer with `sets` weight vectors. With
+/// two mixers what a second one says, whose weights go by how much the contexts have seen, is
+/// averaged in.
 template <size_t N, size_t E = 0>
 class MixedModel {
  public:
   /// sizes[i]: number of values of context i.
-  explicit MixedModel(std::array<uint32_t, N> sizes, uint32_t sets = 1) {
+  explicit MixedModel(std::array<uint32_t, N> sizes, uint32_t sets = 1, uint32_t mixers = 1) {
     for (size_t i = 0; i < N; ++i) states_[i].assign(sizes[i], uint32_t{1} << 31);
     weights_.assign(sets, Initial());
+    if (mixers == 2) second_weights_.assign(kSeenSets, Initial());
   }
 
   /// predictions: ln(p / (1 - p)) in 1/256, p the probability of `true`; -2047 .. 2047.
@@ -60,7 +63,7 @@ class MixedModel {
             const std::array<int32_t, E>& predictions = {}) {
     std::array<uint32_t*, N> state;
     std::array<int32_t, N + E> input;
-    std::array<int32_t, N + E>& weight = weights_[set];
+    Weights& weight = weights_[set];
     int64_t sum = 0;
     for (size_t i = 0; i < N; ++i) {
       state[i] = &states_[i][contexts[i]];
@@ -68,15 +71,21 @@ class MixedModel {
     }
     for (size_t i = 0; i < E; ++i) input[N + i] = predictions[i];
     for (size_t i = 0; i < N + E; ++i) sum += static_cast<int64_t>(weight[i]) * input[i];
-    int64_t mixed = sum >> 16;
-    if (mixed > 2047) mixed = 2047;
-    if (mixed < -2047) mixed = -2047;
-    int32_t probability = detail::kSquash[static_cast<size_t>(mixed + 2048)];
-    bit = coder.Code(static_cast<uint32_t>(probability), bit);
-    int32_t error = (bit ? 65536 : 0) - probability;
-    for (size_t i = 0; i < N + E; ++i) {
-      weight[i] += static_cast<int32_t>((static_cast<int64_t>(input[i]) * error * kLearning) >> 20);
+    int32_t second_probability = 0;
+    Weights* second = nullptr;
+    if (!second_weights_.empty()) {
+      second = &second_weights_[SeenSet(state)];
+      int64_t second_sum = 0;
+      for (size_t i = 0; i < N + E; ++i) {
+        second_sum += static_cast<int64_t>((*second)[i]) * input[i];
+      }
+      second_probability = Squash(second_sum);
+      sum = (sum + second_sum) >> 1;
     }
+    int32_t probability = Squash(sum);
+    bit = coder.Code(static_cast<uint32_t>(probability), bit);
+    Learn(input, (bit ? 65536 : 0) - probability, &weight);
+    if (second != nullptr) Learn(input, (bit ? 65536 : 0) - second_probability, second);
     for (size_t i = 0; i < N; ++i) Update(state[i], bit);
     return bit;
   }
@@ -87,16 +96,39 @@ class MixedModel {
   }
 
  private:
+  using Weights = std::array<int32_t, N + E>;
   static constexpr int kLearning = 12;
+  /// Sets of the second mixer: four steps of how much each of the first three contexts has seen.
+  static constexpr size_t kSeenContexts = N < 3 ? N : 3, kSeenSets = size_t{1} << 2 * kSeenContexts;
   /// A probability moves at least by one in so many.
   static constexpr uint32_t kMostSeen = 250;
-  static std::array<int32_t, N + E> Initial() {
-    std::array<int32_t, N + E> weight;
+  static Weights Initial() {
+    Weights weight;
     const double whole = E > 0 ? 0.4 : (N == 1 ? 1.0 : 1.3);
     weight.fill(static_cast<int32_t>(65536 * whole / static_cast<double>(N)));
     for (size_t i = 0; i < E; ++i)
       weight[N + i] = static_cast<int32_t>(65536 * 0.8 / static_cast<double>(E));
     return weight;
+  }
+  static size_t SeenSet(const std::array<uint32_t*, N>& state) {
+    size_t set = 0;
+    for (size_t i = 0; i < kSeenContexts; ++i) {
+      const uint32_t seen = *state[i] & 1023;
+      set = set * 4 + (seen < 4 ? 0 : (seen < 20 ? 1 : (seen < 120 ? 2 : 3)));
+    }
+    return set;
+  }
+  static int32_t Squash(int64_t sum) {
+    int64_t mixed = sum >> 16;
+    if (mixed > 2047) mixed = 2047;
+    if (mixed < -2047) mixed = -2047;
+    return detail::kSquash[static_cast<size_t>(mixed + 2048)];
+  }
+  static void Learn(const Weights& input, int32_t error, Weights* weight) {
+    for (size_t i = 0; i < N + E; ++i) {
+      (*weight)[i] +=
+          static_cast<int32_t>((static_cast<int64_t>(input[i]) * error * kLearning) >> 20);
+    }
   }
   /// A state is a probability in its upper 22 bits and a count of decisions in its lower 10.
   void Update(uint32_t* state, bool bit) {
@@ -110,7 +142,8 @@ class MixedModel {
   }
 
   std::array<std::vector<uint32_t>, N> states_;
-  std::vector<std::array<int32_t, N + E>> weights_;
+  std::vector<Weights> weights_;
+  std::vector<Weights> second_weights_;  ///< empty with one mixer
 };
 
 }  // namespace folprom

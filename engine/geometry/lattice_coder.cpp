@@ -54,11 +54,13 @@ constexpr double kScalePerMiss = 0.7213;
 
 }  // namespace
 
-LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi)
+LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings settings)
     : lo_{lo.x, lo.y, lo.z},
       hi_{hi.x, hi.y, hi.z},
-      tangential_({2 * 6 * 8, 9 * 9 * 2, 2 * 16}),
-      normal_({16 * 4, 16 * 6}),
+      has_density_(settings.density_step > 0),
+      tangential_({2 * 6 * 8, 9 * 9 * 2, 2 * 16}, settings.mixers),
+      density_(std::max(settings.density_step, 1u)),
+      normal_({16 * 4, 16 * 6}, settings.mixers),
       tangential_fit_(8, OnlineRegression<5>({2, 0, 0, 0, 0})),
       tangential_scale_(2 * 2 * 8 * 6, 1),
       normal_scale_(2 * 16, 1),
@@ -96,7 +98,7 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
   for (uint32_t axis = 0; axis < 3; ++axis) {
     ahead[axis] = tangential_fit_[count].Predict(Features(ring, axis)) * ring.spacing;
   }
-  density_.Prepare(ring, ahead);
+  if (has_density_) density_.Prepare(ring, ahead);
   for (uint32_t step = 0; step < 3; ++step) {
     coder.SetMeter(step < 2 ? tangential_meter : normal_meter);
     uint32_t axis = (ring.dominant + 1 + step) % 3;
@@ -118,9 +120,8 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
       if (step == 0) variance_before = variance;
       double width = std::sqrt(variance);
       double straight = ahead[axis];
-      if (step == 0) {
-        density_.First(axis, &axis_density_);
-      } else {
+      if (has_density_ && step == 0) density_.First(axis, &axis_density_);
+      if (has_density_ && step == 1) {
         density_.Second(axis, first, offset[first], &axis_density_);
       }
       double far = straight + slope * miss_before;
@@ -137,7 +138,7 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
                                        (lean * 9 + side) * 2 + step,
                                        OctaveBucket(width / cell) * 2 + step};
       value = tangential_.Code(coder, contexts, predictions, lo, hi, value,
-                               {&axis_density_, origin, cell});
+                               {has_density_ ? &axis_density_ : nullptr, origin, cell});
       double place_now = static_cast<double>(Centre(axis, value, shift)) + 0.5 - origin;
       offset[axis] = place_now;
       for (uint32_t p = 0; p < 2; ++p) {
@@ -146,7 +147,7 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
       if (step == 0) miss_before = place_now - straight;
       tangential_fit_[count].Learn(Features(ring, axis),
                                    std::clamp(place_now * inverse, -64.0, 64.0));
-      if (step == 1) density_.Learn(place_now);
+      if (has_density_ && step == 1) density_.Learn(place_now);
     } else {
       double steep = std::fabs(ring.normal[axis]);
       double bent = ring.MeetQuadric(offset);

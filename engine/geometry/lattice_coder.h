@@ -23,10 +23,16 @@ struct LatticePrecision {
   uint32_t normal = 0;
 };
 
+/// How much work goes into predicting.
+struct LatticeSettings {
+  uint32_t density_step = 2;  ///< of the TangentDensity; 0: none
+  uint32_t mixers = 1;        ///< of the MixedModel of cells
+};
+
 class LatticeCoder {
  public:
   /// Coordinates lie in [lo, hi].
-  LatticeCoder(const Int3& lo, const Int3& hi);
+  LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings settings);
 
   /// The first vertex, known exactly.
   void AddRoot() { shifts_.push_back({0, 0, 0}); }
@@ -50,6 +56,7 @@ class LatticeCoder {
   int32_t Centre(uint32_t axis, int32_t cell, uint32_t shift) const;
 
   std::array<int32_t, 3> lo_, hi_;
+  bool has_density_;
   std::vector<Shifts> shifts_;
   CellModel<3, 2, 1> tangential_;
   TangentDensity density_;

@@ -8,7 +8,7 @@
 namespace folprom {
 namespace {
 
-/// Between cells, in spacings.
+/// Between cells that a step of 2 would part, in spacings.
 constexpr double kStep = 0.1;
 constexpr float kLearning = 0.1F;
 
@@ -18,11 +18,6 @@ uint8_t DistanceBucket(double squared, uint32_t count) {
   return static_cast<uint8_t>(std::min(bucket, static_cast<double>(count - 1)));
 }
 
-size_t Folded(size_t a, size_t b, size_t aside) {
-  size_t middle = aside / 2;
-  return a * (middle + 1) + (b > middle ? b - middle : middle - b);
-}
-
 double Flat(const Vector3& normal, uint32_t axis) {
   double flat = 1 - normal[axis] * normal[axis];
   return flat > 0.01 ? flat : 0.01;
@@ -30,8 +25,19 @@ double Flat(const Vector3& normal, uint32_t axis) {
 
 }  // namespace
 
-TangentDensity::TangentDensity()
+TangentDensity::TangentDensity(uint32_t step)
     : place_(kEccentricities * kCounts), far_(kCounts), pair_(kCounts) {
+  // Cells between two places share their weight, and so would be sharper than what is learnt.
+  reach_ = step == 1 ? 0.75 * kStep : kStep * step / 2;
+  constexpr int kHalfAlong = kAlong / 2, kHalfAside = kAside / 2;
+  const int skip = static_cast<int>(step);
+  const int most_along = 2 * kHalfAlong / skip * skip, most_aside = 2 * kHalfAside / skip * skip;
+  for (int a = -most_along; a <= most_along; a += skip) {
+    for (int b = -most_aside; b <= most_aside; b += skip) {
+      const int place = (a / 2 + kHalfAlong) * (kHalfAside + 1) + (b < 0 ? -b : b) / 2;
+      cells_.push_back({kStep * (a / 2.0), kStep * (b / 2.0), static_cast<uint16_t>(place)});
+    }
+  }
   for (auto& table : place_) table.fill(0);
   for (auto& table : far_) table.fill(0);
   for (auto& table : pair_) table.fill({});
@@ -75,39 +81,36 @@ void TangentDensity::Prepare(const RingShape& ring, const Vector3& ahead) {
   const auto& far = far_[count_context_];
   const PairTable& pair = pair_[count_context_];
   double total = 0;
-  for (size_t a = 0; a < kAlong; ++a) {
-    double u = eccentricity + kStep * (static_cast<double>(a) - (kAlong - 1) / 2);
-    for (size_t b = 0; b < kAside; ++b) {
-      size_t k = a * kAside + b;
-      double v = kStep * (static_cast<double>(b) - (kAside - 1) / 2);
-      for (size_t i = 0; i < 3; ++i) centre_[k][i] = spacing_ * (u * along[i] + v * aside[i]);
-      far_bucket_[k] = DistanceBucket(u * u + v * v, kFarBuckets);
-      float score = table[Folded(a, b, kAside)] + far[far_bucket_[k]];
-      for (size_t n = 0; n < neighbours_; ++n) {
-        double du = u - place[n][0], dv = v - place[n][1];
-        uint8_t bucket = DistanceBucket(du * du + dv * dv, kNearBuckets);
-        near_bucket_[k][n] = bucket;
-        score = score + pair[ring_bucket_[n]][bucket];
-      }
-      weight_[k] = detail::FastExp2(std::clamp(static_cast<double>(score), -30.0, 30.0));
-      total = total + weight_[k];
+  for (size_t k = 0; k < cells_.size(); ++k) {
+    const Cell& cell = cells_[k];
+    const double u = eccentricity + cell.along, v = cell.aside;
+    for (size_t i = 0; i < 3; ++i) centre_[k][i] = spacing_ * (u * along[i] + v * aside[i]);
+    far_bucket_[k] = DistanceBucket(u * u + v * v, kFarBuckets);
+    float score = table[cell.place] + far[far_bucket_[k]];
+    for (size_t n = 0; n < neighbours_; ++n) {
+      double du = u - place[n][0], dv = v - place[n][1];
+      uint8_t bucket = DistanceBucket(du * du + dv * dv, kNearBuckets);
+      near_bucket_[k][n] = bucket;
+      score = score + pair[ring_bucket_[n]][bucket];
     }
+    weight_[k] = detail::FastExp2(std::clamp(static_cast<double>(score), -30.0, 30.0));
+    total = total + weight_[k];
   }
-  for (double& weight : weight_) weight = weight / total;
+  for (size_t k = 0; k < cells_.size(); ++k) weight_[k] = weight_[k] / total;
 }
 
 double TangentDensity::WidthOn(uint32_t axis) const {
-  return kStep * spacing_ * std::sqrt(Flat(normal_, axis));
+  return reach_ * spacing_ * std::sqrt(Flat(normal_, axis));
 }
 
 void TangentDensity::First(uint32_t axis, AxisDensity* density) const {
   double lo = centre_[0][axis], hi = lo, width = WidthOn(axis);
-  for (const Vector3& centre : centre_) {
-    lo = std::min(lo, centre[axis]);
-    hi = std::max(hi, centre[axis]);
+  for (size_t k = 0; k < cells_.size(); ++k) {
+    lo = std::min(lo, centre_[k][axis]);
+    hi = std::max(hi, centre_[k][axis]);
   }
   density->Start(lo - width, hi + width);
-  for (size_t k = 0; k < kCells; ++k) density->Add(centre_[k][axis], width, weight_[k]);
+  for (size_t k = 0; k < cells_.size(); ++k) density->Add(centre_[k][axis], width, weight_[k]);
   density->Finish();
 }
 
@@ -119,9 +122,9 @@ void TangentDensity::Second(uint32_t axis, uint32_t first, double first_offset,
   double width = WidthOn(first);
   slope_ = -normal_[first] * normal_[axis] / Flat(normal_, first);
   double left = Flat(normal_, axis) - slope_ * slope_ * Flat(normal_, first);
-  second_width_ = kStep * spacing_ * std::sqrt(left > 0.01 ? left : 0.01);
+  second_width_ = reach_ * spacing_ * std::sqrt(left > 0.01 ? left : 0.01);
   double lo = 1e300, hi = -1e300;
-  for (size_t k = 0; k < kCells; ++k) {
+  for (size_t k = 0; k < cells_.size(); ++k) {
     double miss = std::fabs(first_offset - centre_[k][first]) / width;
     conditional_[k] = miss < 1 ? weight_[k] * (1 - miss) : weight_[k] * 1e-6;
     if (miss >= 1) continue;
@@ -129,9 +132,9 @@ void TangentDensity::Second(uint32_t axis, uint32_t first, double first_offset,
     lo = std::min(lo, mean);
     hi = std::max(hi, mean);
   }
-  if (lo > hi) lo = hi = centre_[kCells / 2][axis];
+  if (lo > hi) lo = hi = centre_[cells_.size() / 2][axis];
   density->Start(lo - second_width_, hi + second_width_);
-  for (size_t k = 0; k < kCells; ++k) {
+  for (size_t k = 0; k < cells_.size(); ++k) {
     if (std::fabs(first_offset - centre_[k][first]) >= width) continue;
     double mean = centre_[k][axis] + slope_ * (first_offset - centre_[k][first]);
     density->Add(mean, second_width_, conditional_[k]);
@@ -141,7 +144,7 @@ void TangentDensity::Second(uint32_t axis, uint32_t first, double first_offset,
 
 void TangentDensity::Learn(double second_offset) {
   double total = 0;
-  for (size_t k = 0; k < kCells; ++k) {
+  for (size_t k = 0; k < cells_.size(); ++k) {
     double mean = centre_[k][second_axis_] + slope_ * (first_offset_ - centre_[k][first_axis_]);
     double miss = std::fabs(second_offset - mean) / second_width_;
     conditional_[k] = miss < 1 ? conditional_[k] * (1 - miss) : 0;
@@ -151,15 +154,12 @@ void TangentDensity::Learn(double second_offset) {
   auto& table = place_[context_];
   auto& far = far_[count_context_];
   PairTable& pair = pair_[count_context_];
-  for (size_t a = 0; a < kAlong; ++a) {
-    for (size_t b = 0; b < kAside; ++b) {
-      size_t k = a * kAside + b;
-      float surprise = kLearning * static_cast<float>(conditional_[k] / total - weight_[k]);
-      table[Folded(a, b, kAside)] += 2 * surprise;
-      far[far_bucket_[k]] += surprise;
-      for (size_t n = 0; n < neighbours_; ++n) {
-        pair[ring_bucket_[n]][near_bucket_[k][n]] += surprise;
-      }
+  for (size_t k = 0; k < cells_.size(); ++k) {
+    float surprise = kLearning * static_cast<float>(conditional_[k] / total - weight_[k]);
+    table[cells_[k].place] += 2 * surprise;
+    far[far_bucket_[k]] += surprise;
+    for (size_t n = 0; n < neighbours_; ++n) {
+      pair[ring_bucket_[n]][near_bucket_[k][n]] += surprise;
     }
   }
 }

@@ -17,7 +17,9 @@ namespace folprom {
 
 class TangentDensity {
  public:
-  TangentDensity();
+  /// step: between cells of the grid, in twentieths of the spacing, 1 .. 4. The weights are those
+  /// of a grid of step 2 for all, so that what is learnt with one step serves the others.
+  explicit TangentDensity(uint32_t step);
 
   /// Before a vertex: weighs the cells. ahead: where the new vertex is expected, relative to the
   /// old.
@@ -31,8 +33,15 @@ class TangentDensity {
   void Visit(LearnedStateVisitor& visitor);
 
  private:
-  static constexpr size_t kAlong = 15, kAside = 11, kCells = kAlong * kAside;
+  /// Of the grid of step 2.
+  static constexpr size_t kAlong = 15, kAside = 11;
   static constexpr size_t kFolded = kAlong * (kAside / 2 + 1);
+  static constexpr size_t kMostCells = (2 * kAlong - 1) * (2 * kAside - 1);
+  /// A cell of the grid: its offset from the expected place in spacings, and where its weight is.
+  struct Cell {
+    double along, aside;
+    uint16_t place;
+  };
   static constexpr uint32_t kEccentricities = 6, kCounts = 4;
   static constexpr uint32_t kFarBuckets = 28;   ///< of the distance to the old vertex
   static constexpr uint32_t kNearBuckets = 28;  ///< of the distance to a neighbour
@@ -41,6 +50,8 @@ class TangentDensity {
   using PairTable = std::array<std::array<float, kNearBuckets>, kRingBuckets>;
   double WidthOn(uint32_t axis) const;
 
+  double reach_;  ///< how far a cell reaches along the surface, in spacings
+  std::vector<Cell> cells_;
   std::vector<std::array<float, kFolded>> place_;  ///< log weights, per context
   std::vector<std::array<float, kFarBuckets>> far_;
   std::vector<PairTable> pair_;
@@ -48,10 +59,10 @@ class TangentDensity {
   // The vertex under way.
   double spacing_ = 1;
   Vector3 normal_{0, 0, 1};
-  std::array<Vector3, kCells> centre_;
-  std::array<double, kCells> weight_, conditional_;
-  std::array<uint8_t, kCells> far_bucket_;
-  std::array<std::array<uint8_t, kMostNeighbours>, kCells> near_bucket_;
+  std::array<Vector3, kMostCells> centre_;
+  std::array<double, kMostCells> weight_, conditional_;
+  std::array<uint8_t, kMostCells> far_bucket_;
+  std::array<std::array<uint8_t, kMostNeighbours>, kMostCells> near_bucket_;
   std::array<uint8_t, kMostNeighbours> ring_bucket_;
   size_t neighbours_ = 0;
   uint32_t context_ = 0, count_context_ = 0;

@@ -158,6 +158,27 @@ TEST_F(Config, FlagsWinOverTheFileAndTheFileOverDefaults) {
   EXPECT_EQ(with_flags["codec"]["subtree_vertices"].value<int>(), 20000);
 }
 
+TEST_F(Config, KeysWinOverTheEffortOfTheFileAndTheFlagOverBoth) {
+  // Wherever it stands in the table.
+  const std::string config = Write("[codec]\ndensity_step = 3\neffort = 1\n");
+  const auto codec = [&](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"--config", config});
+    return *toml::parse(Effective(flags).out)["codec"].as_table();
+  };
+  const toml::table from_file = codec({});
+  EXPECT_EQ(from_file["effort"].value<int>(), 1);
+  EXPECT_EQ(from_file["density_step"].value<int>(), 3);
+  EXPECT_EQ(from_file["subtree_vertices"].value<int>(), 16384);
+  const toml::table with_flag = codec({"--effort", "9"});
+  EXPECT_EQ(with_flag["effort"].value<int>(), 9);
+  EXPECT_EQ(with_flag["density_step"].value<int>(), 1);
+  EXPECT_EQ(with_flag["mixers"].value<int>(), 2);
+  EXPECT_EQ(with_flag["subtree_vertices"].value<int>(), 1048576);
+  const toml::table with_both = codec({"--effort", "9", "--subtree-vertices", "20k"});
+  EXPECT_EQ(with_both["subtree_vertices"].value<int>(), 20000);
+  EXPECT_EQ(with_both["mixers"].value<int>(), 2);
+}
+
 TEST_F(Config, SizesAreReadInEveryForm) {
   const std::vector<std::pair<std::string, std::string>> sizes = {
       {"512MiB", "512MiB"}, {"2GiB", "2GiB"},       {"2G", "2GiB"},
@@ -196,6 +217,10 @@ TEST_F(Config, ValuesOutOfRangeAreRejected) {
   ExpectRejected("[codec]\nchildren = -1\n", 2, "2 .. 8");
   ExpectRejected("[codec]\nchildren = 4294967298\n", 2, "2 .. 8");
   ExpectRejected("[codec]\nsubtree_vertices = 16777217\n", 2, "1 .. 16777216");
+  ExpectRejected("[codec]\neffort = 0\n", 2, "1 .. 9");
+  ExpectRejected("[codec]\neffort = 10\n", 2, "1 .. 9");
+  ExpectRejected("[codec]\ndensity_step = 5\n", 2, "0 .. 4");
+  ExpectRejected("[codec]\nmixers = 0\n", 2, "1 .. 2");
   ExpectRejected("[codec]\nmetric_a = 1.5\n", 2, "0 .. 1");
   ExpectRejected("[codec]\nmetric_b = nan\n", 2, "1 .. 64");
   ExpectRejected("[encode]\ntolerance = inf\n", 2, "tolerance");

@@ -64,6 +64,20 @@ TEST_F(Report, InfoAsJson) {
   EXPECT_EQ(layers.back().at("vertices"), 3000);
 }
 
+TEST_F(Report, OfTheEffort) {
+  EXPECT_EQ(Run({"info", Path("s.folp"), "--json"}).json().at("codec").at("effort"), 5);
+  for (const char* effort : {"1", "9"}) {
+    ASSERT_EQ(Run({"encode", Path("s.ply"), "-o", Path("e.folp"), "-f", "--effort", effort, "-q"})
+                  .exit_code,
+              0);
+    const auto info = Run({"info", Path("e.folp"), "--json"}).json();
+    EXPECT_EQ(std::to_string(info.at("codec").at("effort").get<int>()), effort);
+    EXPECT_NE(Run({"info", Path("e.folp")}).out.find(std::string("effort ") + effort),
+              std::string::npos);
+    EXPECT_EQ(Run({"verify", Path("e.folp"), "--against", Path("s.ply"), "-q"}).exit_code, 0);
+  }
+}
+
 TEST_F(Report, OfAnExactFile) {
   const Outcome encoded = Run({"encode", Path("s.ply"), "-o", Path("e.folp"), "--exact"});
   ASSERT_EQ(encoded.exit_code, 0) << encoded.err;

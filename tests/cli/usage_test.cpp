@@ -70,6 +70,9 @@ TEST_F(Usage, RejectsValuesOutOfRangeNamingTheOption) {
   for (const char* value : {"0", "25", "-1", "x", "1.5"}) {
     ExpectError(with(encode, "--bits", value), 2, "--bits");
   }
+  for (const char* value : {"0", "10", "-1", "x", "1.5", ""}) {
+    ExpectError(with(encode, "--effort", value), 2, "--effort");
+  }
   for (const char* value : {"0", "-1", "nan", "inf", "1mm", ""}) {
     ExpectError(with(encode, "--tolerance", value), 2, "--tolerance");
   }

@@ -22,6 +22,8 @@ namespace {
 constexpr uint64_t kDefaultHash = 0x83d7e4f6aa52f791;
 constexpr uint64_t kPaperHash = 0x324f791b2572ce63;
 constexpr uint64_t kSubtreesHash = 0x7ce2935471533768;
+constexpr uint64_t kLeastEffortHash = 0xaa880d6c36c8182e;
+constexpr uint64_t kMostEffortHash = 0xab9333d6996116ea;
 constexpr uint64_t kExactHash = 0x6bc1fa6f5edbc623;
 constexpr uint64_t kExactRestsHash = 0x92926f46489a0d34;
 constexpr uint64_t kOtherHash = 0x8f0ebc7d7c8cd4db;
@@ -73,6 +75,17 @@ TEST(GoldenTest, DefaultSettingsInSubtreesGiveTheKnownBytes) {
   options.bits = 15;
   options.codec.subtree_vertices = 1500;
   ExpectHash("kSubtreesHash", kSubtreesHash, options);
+}
+
+TEST(GoldenTest, LeastAndMostEffortInSubtreesGiveTheKnownBytes) {
+  EncodeOptions options;
+  options.bits = 15;
+  options.codec = WithEffort(options.codec, 1);
+  options.codec.subtree_vertices = 1500;
+  ExpectHash("kLeastEffortHash", kLeastEffortHash, options);
+  options.codec = WithEffort(options.codec, 9);
+  options.codec.subtree_vertices = 3000;
+  ExpectHash("kMostEffortHash", kMostEffortHash, options);
 }
 
 TEST(GoldenTest, ExactIntegersGiveTheKnownBytes) {

@@ -93,6 +93,17 @@ TEST_P(RunnerTest, NeverChangesTheBytesOfManySmallSubtrees) {
   ExpectSameBytes(folder.File("scan.ply"), Options(50), 80, 5);
 }
 
+TEST(EffortRunnerTest, NeverChangesTheBytesAtLeastAndMostEffort) {
+  TemporaryFolder folder;
+  WritePly(folder.File("scan.ply"), BumpySphere(4000, true, 4), CoordinateType::kFloat);
+  for (uint32_t effort : {1u, 9u}) {
+    EncodeOptions options;
+    options.codec = WithEffort(options.codec, effort);
+    options.codec.subtree_vertices = 400;
+    ExpectSameBytes(folder.File("scan.ply"), options, 8, 2);
+  }
+}
+
 TEST(ExactRunnerTest, NeverChangesTheBytesOfAnExactFile) {
   for (CoordinateType type : {CoordinateType::kFloat, CoordinateType::kDouble}) {
     TemporaryFolder folder;

@@ -63,6 +63,15 @@ Bytes FileOfKind(size_t kind) {
       options.exact = true;  // of noise: every coordinate leaves a rest
       break;
     case 7:
+      options = SmallOptions(80);
+      options.codec.density_step = 0;
+      break;
+    case 8:
+      options = SmallOptions(150);
+      options.codec.density_step = 1;
+      options.codec.mixers = 2;
+      break;
+    case 9:
       options = SmallOptions(300);
       options.codec.fan_cuts = options.codec.pivot_order = options.codec.trained = false;
       break;
@@ -74,7 +83,7 @@ Bytes FileOfKind(size_t kind) {
   }
   return Encoded(RoughTorus(25, 12), options);
 }
-constexpr size_t kKinds = 9;
+constexpr size_t kKinds = 11;
 
 const std::vector<Parts>& AllKinds() {
   static const std::vector<Parts> kinds = [] {

@@ -85,11 +85,15 @@ TEST_P(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
   }
   for (uint32_t S::*field :
        {&S::subtree_vertices, &S::children, &S::lloyd_iterations, &S::quantisation_levels,
-        &S::layers_per_octave, &S::rounds_per_layer}) {
+        &S::layers_per_octave, &S::rounds_per_layer, &S::effort, &S::mixers}) {
     for (uint32_t value : {0u, 0xffffffffu, 0x80000000u}) {
       ExpectCorrupt(WithSettings([&](S& s) { s.*field = value; }), std::to_string(value));
     }
   }
+  ExpectCorrupt(WithSettings([](S& s) { s.effort = 10; }), "effort 10");
+  ExpectCorrupt(WithSettings([](S& s) { s.density_step = 5; }), "density step 5");
+  ExpectCorrupt(WithSettings([](S& s) { s.density_step = 0xffffffffu; }), "huge density step");
+  ExpectCorrupt(WithSettings([](S& s) { s.mixers = 3; }), "three mixers");
   ExpectCorrupt(WithSettings([](S& s) { s.children = 1; }), "one child");
   ExpectCorrupt(WithSettings([](S& s) { s.children = 9; }), "nine children");
   ExpectCorrupt(WithSettings([](S& s) { s.hierarchy = static_cast<Hierarchy>(7); }), "hierarchy");

@@ -78,6 +78,11 @@ std::vector<Case> Combinations() {
     settings.layers_per_octave = first == 0 ? 1 : 4;
     cases.push_back({NameOf("QuadricLattice", first), settings});
   }
+  for (uint32_t effort = 1; effort <= 9; ++effort) {
+    CodecSettings settings = WithEffort({}, effort);
+    settings.subtree_vertices = CodecSettings().subtree_vertices;
+    cases.push_back({"Effort" + std::to_string(effort), settings});
+  }
   CodecSettings coarse = LloydSettings();
   coarse.quantisation_levels = 2;
   coarse.children = 8;

@@ -73,7 +73,19 @@ struct CodecSettings {
   // Layers
   uint32_t layers_per_octave = 4;  ///< layers per halving of the spacing; 1 .. 8
   uint32_t rounds_per_layer = 1;   ///< largest spacing first, in this many steps a layer; 1 .. 16
+
+  // Effort
+  /// 1 fastest .. 9 smallest. A record of what WithEffort was asked for; it decides nothing itself.
+  uint32_t effort = 5;
+  /// Offsets::kLattice: between cells of the density of new vertices over the tangent plane, in
+  /// twentieths of the spacing; 1 .. 4, 0: no density.
+  uint32_t density_step = 2;
+  uint32_t mixers = 1;  ///< Offsets::kLattice: how many mixers a decision averages; 1 .. 2
 };
+
+/// The settings with those that effort (1 .. 9, others are left to CheckSettings) stands for:
+/// subtree_vertices, density_step, mixers, and effort itself.
+CodecSettings WithEffort(CodecSettings settings, uint32_t effort);
 
 /// kUsage with the name of the first field out of its range.
 Result<void> CheckSettings(const CodecSettings& settings);

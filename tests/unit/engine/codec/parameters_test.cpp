@@ -23,6 +23,7 @@ CodecParameters Some() {
   parameters.settings.representative = Representative::kCentre;
   parameters.settings.distortion_first = 0.25;
   parameters.settings.layers_per_octave = 3;
+  parameters.settings = WithEffort(parameters.settings, 8);
   parameters.schedule = LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4);
   return parameters;
 }
@@ -45,6 +46,9 @@ TEST(CodecParameters, ComeBackFromTheirBytes) {
   EXPECT_FALSE(read.settings.split_first);
   EXPECT_EQ(read.settings.representative, Representative::kCentre);
   EXPECT_EQ(read.settings.distortion_first, 0.25);
+  EXPECT_EQ(read.settings.effort, 8u);
+  EXPECT_EQ(read.settings.density_step, Some().settings.density_step);
+  EXPECT_EQ(read.settings.mixers, Some().settings.mixers);
   EXPECT_EQ(read.extent, kExtent);
   EXPECT_EQ(read.schedule.split_layers(), 9u);
   EXPECT_EQ(read.schedule.refine_layers(), 4u);

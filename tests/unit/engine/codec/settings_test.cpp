@@ -43,6 +43,49 @@ TEST(CheckOptions, RefusesTolerancesThatAreNone) {
   }
 }
 
+TEST(WithEffort, IsTheDefaultAtFive) {
+  const CodecSettings usual, five = WithEffort(usual, 5);
+  EXPECT_EQ(five.effort, usual.effort);
+  EXPECT_EQ(five.density_step, usual.density_step);
+  EXPECT_EQ(five.mixers, usual.mixers);
+  EXPECT_EQ(five.subtree_vertices, usual.subtree_vertices);
+}
+
+TEST(WithEffort, NeverDoesLessForMore) {
+  for (uint32_t effort = 1; effort < 9; ++effort) {
+    const CodecSettings less = WithEffort({}, effort), more = WithEffort({}, effort + 1);
+    EXPECT_TRUE(CheckSettings(less)) << effort;
+    EXPECT_TRUE(CheckSettings(more)) << effort;
+    EXPECT_EQ(more.effort, effort + 1);
+    EXPECT_LE(less.subtree_vertices, more.subtree_vertices);
+    EXPECT_LE(less.mixers, more.mixers);
+    const auto cells = [](uint32_t step) { return step == 0 ? 0 : 5 - step; };
+    EXPECT_LE(cells(less.density_step), cells(more.density_step));
+    EXPECT_TRUE(less.subtree_vertices < more.subtree_vertices || less.mixers < more.mixers ||
+                less.density_step != more.density_step)
+        << effort;
+  }
+}
+
+TEST(WithEffort, LeavesOtherSettingsAlone) {
+  CodecSettings settings;
+  settings.children = 7;
+  settings.distortion_first = 0.25;
+  settings.fan_cuts = false;
+  const CodecSettings nine = WithEffort(settings, 9);
+  EXPECT_EQ(nine.children, 7u);
+  EXPECT_EQ(nine.distortion_first, 0.25);
+  EXPECT_FALSE(nine.fan_cuts);
+}
+
+TEST(WithEffort, OutOfRangeIsRefused) {
+  for (uint32_t effort : {0u, 10u, 0xffffffffu}) {
+    EncodeOptions options;
+    options.codec = WithEffort(options.codec, effort);
+    EXPECT_NE(UsageErrorOf(options).find("setting effort is"), std::string::npos) << effort;
+  }
+}
+
 TEST(CheckOptions, RefusesExactWithoutLatticeOffsets) {
   EncodeOptions options;
   options.exact = true;

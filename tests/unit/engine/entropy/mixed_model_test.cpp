@@ -60,6 +60,22 @@ TEST(MixedModel, KeepsContextsApart) {
   EXPECT_LT(cost, EntropyOf(0.05) * 1.03 + 0.01);
 }
 
+TEST(MixedModel, SecondMixerTrustsContextsThatHaveSeenMuch) {
+  const auto cost_with = [](uint32_t mixers) {
+    std::mt19937_64 random(5);
+    MixedModel<2> model({4096, 1}, 1, mixers);
+    return CostAfter(model, 500, 8000, [&] {
+      // A few contexts tell, and are met often; what the others have seen once or twice is chance.
+      const bool often = random() % 2 == 0;
+      const auto context = static_cast<uint32_t>(often ? random() % 8 : 8 + random() % 4000);
+      const double one = often ? (context % 2 == 0 ? 0.02 : 0.98) : 0.5;
+      return std::tuple(std::array<uint32_t, 2>{context, 0}, 0u,
+                        std::bernoulli_distribution(one)(random));
+    });
+  };
+  EXPECT_LT(cost_with(2), 0.98 * cost_with(1));
+}
+
 TEST(MixedModel, LearnsWhichContextToTrust) {
   std::mt19937_64 random(3);
   MixedModel<3> model({16, 16, 16});

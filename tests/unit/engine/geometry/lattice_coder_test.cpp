@@ -21,6 +21,7 @@ struct Split {
 struct Case {
   Int3 lo, hi;
   std::vector<Split> splits;
+  LatticeSettings settings = {};
 };
 
 Case RandomCase(uint64_t seed, const Int3& lo, const Int3& hi, uint32_t most_shift) {
@@ -60,7 +61,7 @@ Case RandomCase(uint64_t seed, const Int3& lo, const Int3& hi, uint32_t most_shi
 /// Codes all vertices, then refines them by stages down to the lattice; positions of each stage.
 template <class Coder>
 std::vector<Int3> CodeAll(Coder& coder, const Case& input, uint64_t* cost) {
-  LatticeCoder lattice(input.lo, input.hi);
+  LatticeCoder lattice(input.lo, input.hi, input.settings);
   lattice.AddRoot();
   std::vector<Int3> known{input.lo}, all;
   for (const Split& split : input.splits) {
@@ -117,6 +118,16 @@ TEST(LatticeCoder, RandomVerticesComeBackAndEndExact) {
   ExpectRoundTrip(RandomCase(3, {1000, 1000, 1000}, {1007, 1003, 1001}, 5));
 }
 
+TEST(LatticeCoder, RandomVerticesComeBackWithEverySetting) {
+  for (uint32_t step = 0; step <= 4; ++step) {
+    for (uint32_t mixers : {1u, 2u}) {
+      Case input = RandomCase(8, {12345, 777, 5}, {1012345, 34567, 1003}, 12);
+      input.settings = {step, mixers};
+      ExpectRoundTrip(input);
+    }
+  }
+}
+
 TEST(LatticeCoder, FlatBoxAndBoxOfOnePointComeBack) {
   ExpectRoundTrip(RandomCase(4, {5, 9, 13}, {100005, 9, 100013}, 20));
   ExpectRoundTrip(RandomCase(5, {5, 9, 13}, {5, 9, 13}, 30));
@@ -132,7 +143,7 @@ TEST(LatticeCoder, BoxOfOnePointCostsNothing) {
 
 TEST(LatticeCoder, CoarserMeansOnAnyAxisThanTheFinerOfThePrecisions) {
   Case input = RandomCase(7, {0, 0, 0}, {1 << 20, 1 << 20, 1 << 20}, 10);
-  LatticeCoder lattice(input.lo, input.hi);
+  LatticeCoder lattice(input.lo, input.hi, input.settings);
   uint64_t cost = 0;
   BitEncoder encoder;
   const Split& split = input.splits[0];

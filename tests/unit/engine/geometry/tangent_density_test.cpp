@@ -34,9 +34,13 @@ void ExpectSound(const AxisDensity& density, double around) {
   }
 }
 
-TEST(TangentDensity, LearnsWhereNewVerticesLie) {
+/// By the step of the grid.
+using TangentDensityTest = ::testing::TestWithParam<uint32_t>;
+INSTANTIATE_TEST_SUITE_P(Step, TangentDensityTest, ::testing::Values(1u, 2u, 3u, 4u));
+
+TEST_P(TangentDensityTest, LearnsWhereNewVerticesLie) {
   const RingShape ring = Hexagon(1000);
-  TangentDensity model;
+  TangentDensity model(GetParam());
   AxisDensity x, y;
   const Vector3 ahead{500, 0, 0};
   for (int i = 0; i < 300; ++i) {
@@ -53,10 +57,10 @@ TEST(TangentDensity, LearnsWhereNewVerticesLie) {
   EXPECT_GT(y.Below(350) - y.Below(50) + y.Below(-50) - y.Below(-350), 0.7);
 }
 
-TEST(TangentDensity, StaysFiniteOverThousandsOfExtremeSamples) {
+TEST_P(TangentDensityTest, StaysFiniteOverThousandsOfExtremeSamples) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> part(-1, 1);
-  TangentDensity model;
+  TangentDensity model(GetParam());
   AxisDensity first, second;
   for (int round = 0; round < 5000; ++round) {
     const double size = std::exp2(static_cast<double>(random() % 30));
@@ -83,9 +87,9 @@ TEST(TangentDensity, StaysFiniteOverThousandsOfExtremeSamples) {
   }
 }
 
-TEST(TangentDensity, SurvivesTheSameExtremeSampleOverAndOver) {
+TEST_P(TangentDensityTest, SurvivesTheSameExtremeSampleOverAndOver) {
   const RingShape ring = Hexagon(1000);
-  TangentDensity model;
+  TangentDensity model(GetParam());
   AxisDensity first, second;
   for (int i = 0; i < 20000; ++i) {
     model.Prepare(ring, {700, 0, 0});

@@ -1,8 +1,10 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "apps/folprom/options.h"
 #include "apps/folprom/report.h"
@@ -18,12 +20,14 @@ constexpr const char* kDescription =
     "Make a scan-like mesh of any size, for tests\n"
     "\n"
     "  folprom synth --vertices 10M -o scan.ply\n"
-    "  folprom synth --vertices 100k --seed 7 -o small.ply";
+    "  folprom synth --vertices 100k --seed 7 -o small.ply\n"
+    "  folprom synth --kind range --vertices 1M -o depth_images.ply";
 
 struct SynthFlags {
   CommonFlags common;
   std::string output;
   std::optional<uint64_t> vertices;
+  SynthKind kind = SynthKind::kScan;
   uint64_t seed = 1;
   bool force = false;
 };
@@ -49,7 +53,7 @@ int Run(const SynthFlags& flags) {
   }
   CheckOutput("", flags.output, flags.force);
   Session session(flags.common);
-  const SynthSurface surface(vertices, flags.seed, session.progress());
+  const SynthSurface surface(flags.kind, vertices, flags.seed, session.progress());
   auto writer = io::PlyWriter::Create(flags.output, surface.vertex_count(), surface.face_count(),
                                       io::ScalarType::kFloat32, flags.force)
                     .value();
@@ -62,6 +66,7 @@ int Run(const SynthFlags& flags) {
     PrintJson({{"output", flags.output},
                {"vertices", surface.vertex_count()},
                {"faces", surface.face_count()},
+               {"kind", flags.kind == SynthKind::kRange ? "range" : "scan"},
                {"seed", flags.seed},
                {"seconds", session.seconds()},
                {"peak_rss_bytes", PeakResidentBytes()}});
@@ -79,6 +84,13 @@ Verb AddSynth(CLI::App& program) {
   auto flags = std::make_shared<SynthFlags>();
   CLI::App* verb = program.add_subcommand("synth", kDescription);
   AddCountOption(verb, "--vertices", &flags->vertices, "How many vertices, 20k or 10M")->required();
+  verb->add_option("--kind", flags->kind,
+                   "scan: irregular; range: depth images, regular grids; default scan")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, SynthKind>{{"scan", SynthKind::kScan},
+                                                                   {"range", SynthKind::kRange}},
+                                  CLI::ignore_case))
+      ->type_name("KIND");
   verb->add_option("--seed", flags->seed, "Another seed gives another surface; default 1")
       ->type_name("S");
   verb->add_option("-o,--output", flags->output, "Mesh to write (binary PLY)")

@@ -1,19 +1,13 @@
-// One component of the synthetic scan: rows of samples, each computed from its number alone.
+// One component of the synthetic scan.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-namespace folprom::cli {
+#include "apps/folprom/synth_rows.h"
 
-/// The samples of one row, ordered by u. Every array has one entry a sample.
-struct SampleRow {
-  std::vector<double> u;         ///< place along the row in [0, 1), strictly ascending
-  std::vector<double> lean;      ///< small random number that decides between close diagonals
-  std::vector<uint8_t> present;  ///< 0 inside a hole
-  std::vector<double> xyz;       ///< three a sample; only where positions were asked for
-};
+namespace folprom::cli {
 
 enum class PartShape : uint8_t {
   kBlob,   ///< a deformed sphere, open at the bottom; rows are circles of latitude
@@ -22,16 +16,15 @@ enum class PartShape : uint8_t {
 };
 
 /// A component. Row r depends on these values and r only.
-class Part {
+class Part : public RowSource {
  public:
   /// `samples`: how many to place; a blob or patch places about as many and loses some to holes, a
   /// sheet (at least 4) has exactly that many. `size`: half of its extent, model units.
   Part(PartShape shape, uint64_t samples, std::array<double, 3> centre, double size, uint64_t seed);
 
-  uint64_t row_count() const { return rows_; }
-  /// Rows are rings: the last sample is a neighbour of the first.
-  bool ring() const { return shape_ == PartShape::kBlob; }
-  void FillRow(uint64_t row, bool with_positions, SampleRow* out) const;
+  uint64_t row_count() const override { return rows_; }
+  bool ring() const override { return shape_ == PartShape::kBlob; }
+  void FillRow(uint64_t row, bool with_positions, SampleRow* out) const override;
 
  private:
   /// Values of the samples of a row.

@@ -1,5 +1,6 @@
 #include "apps/folprom/synth_strip.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "apps/folprom/synth_surface.h"
@@ -59,7 +60,8 @@ void StripMesher::JoinRows(Row* lower, Row* upper, std::vector<StripTriangle>* s
         (i < lower_steps && a_middle + lower->samples.lean[a] < b_middle + upper->samples.lean[b]);
     const uint32_t next = step_lower ? next_a : next_b | kUpper;
     const bool next_present = step_lower ? lower_present[next_a] : upper_present[next_b];
-    if (next_present && lower_present[a] && upper_present[b]) {
+    if (next_present && lower_present[a] && upper_present[b] &&
+        Spans(lower->samples, upper->samples, {a, next, b | kUpper})) {
       lower->used[a] = 1;
       upper->used[b] = 1;
       (step_lower ? lower->used[next_a] : upper->used[next_b]) = 1;
@@ -69,6 +71,19 @@ void StripMesher::JoinRows(Row* lower, Row* upper, std::vector<StripTriangle>* s
     j += step_lower ? 0 : 1;
   }
   strip->resize(static_cast<size_t>(out - strip->data()));
+}
+
+// A triangle across a jump of the depth would join what lies behind to what lies before it.
+bool StripMesher::Spans(const SampleRow& lower, const SampleRow& upper,
+                        const StripTriangle& triangle) {
+  if (lower.depth.empty()) return true;
+  double least = 1e300, most = -1e300;
+  for (const uint32_t corner : triangle) {
+    const double depth = corner < kUpper ? lower.depth[corner] : upper.depth[corner - kUpper];
+    least = std::min(least, depth);
+    most = std::max(most, depth);
+  }
+  return most - least <= lower.most_jump;
 }
 
 void StripMesher::NumberRow(Row* row) {

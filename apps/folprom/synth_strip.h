@@ -1,10 +1,11 @@
 // Joins rows of samples by strips of triangles and numbers the samples that have a triangle.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "apps/folprom/synth_part.h"
+#include "apps/folprom/synth_rows.h"
 #include "io/formats/mesh_source.h"
 
 namespace folprom::cli {
@@ -37,6 +38,7 @@ class StripMesher {
   static constexpr uint32_t kUpper = uint32_t{1} << 31;
 
   void JoinRows(Row* lower, Row* upper, std::vector<StripTriangle>* strip) const;
+  static bool Spans(const SampleRow& lower, const SampleRow& upper, const StripTriangle& triangle);
   void NumberRow(Row* row);
   void SendFaces(const Row& lower, const Row& upper, const std::vector<StripTriangle>& strip);
 

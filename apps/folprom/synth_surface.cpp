@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "apps/folprom/synth_noise.h"
+#include "apps/folprom/synth_part.h"
+#include "apps/folprom/synth_range.h"
 #include "apps/folprom/synth_strip.h"
 
 namespace folprom::cli {
@@ -23,11 +26,16 @@ constexpr PlannedPart kPlan[] = {{PartShape::kBlob, 0.55, {0, 0, 0}, 100},
 constexpr std::array<double, 3> kLastCentre = {60, 230, -90};
 constexpr double kLastSize = 150;
 
+// Cameras around the object, on two levels. The board gets the rest.
+constexpr uint64_t kViews = 6;
+constexpr double kViewsShare = 0.87;
+constexpr double kRises[] = {0.04, -0.03};
+
 // Below this a component would be nothing but border.
 constexpr uint64_t kMinPartSamples = 400;
 
 // Makes one component; gives its vertices and faces.
-std::array<uint64_t, 2> MakePart(const Part& part, uint64_t first_vertex, SurfaceSink* sink,
+std::array<uint64_t, 2> MakePart(const RowSource& part, uint64_t first_vertex, SurfaceSink* sink,
                                  parallel::Progress& progress) {
   StripMesher mesher(part.ring(), first_vertex, sink);
   uint64_t reported = 0;
@@ -43,30 +51,59 @@ std::array<uint64_t, 2> MakePart(const Part& part, uint64_t first_vertex, Surfac
 
 }  // namespace
 
-SynthSurface::SynthSurface(uint64_t vertices, uint64_t seed, parallel::Progress& progress) {
+SynthSurface::SynthSurface(SynthKind kind, uint64_t vertices, uint64_t seed,
+                           parallel::Progress& progress) {
   progress.StartStage("count", vertices);
-  const auto add = [&](Part part) {
-    const auto [part_vertices, part_faces] = MakePart(part, vertices_, nullptr, progress);
-    vertices_ += part_vertices;
-    faces_ += part_faces;
-    if (part_vertices > 0) parts_.push_back(std::move(part));
-  };
+  if (kind == SynthKind::kScan) {
+    PlanScan(vertices, seed, progress);
+  } else {
+    PlanRange(vertices, seed, progress);
+  }
+}
+
+void SynthSurface::Add(std::unique_ptr<RowSource> part, uint64_t most,
+                       parallel::Progress& progress) {
+  const auto [part_vertices, part_faces] = MakePart(*part, vertices_, nullptr, progress);
+  if (part_vertices == 0 || part_vertices > most) return;
+  vertices_ += part_vertices;
+  faces_ += part_faces;
+  parts_.push_back(std::move(part));
+}
+
+void SynthSurface::PlanScan(uint64_t vertices, uint64_t seed, parallel::Progress& progress) {
   for (const PlannedPart& plan : kPlan) {
     const auto samples = static_cast<uint64_t>(plan.share * static_cast<double>(vertices));
     if (samples < kMinPartSamples) continue;
-    add(Part(plan.shape, samples, plan.centre, plan.size, Mix(seed) + parts_.size()));
+    Add(std::make_unique<Part>(plan.shape, samples, plan.centre, plan.size,
+                               Mix(seed) + parts_.size()),
+        vertices, progress);
   }
   const uint64_t rest = vertices - vertices_;
   const double size =
       kLastSize * std::sqrt(static_cast<double>(rest) / static_cast<double>(vertices));
-  add(Part(PartShape::kSheet, rest, kLastCentre, size, Mix(seed) + parts_.size()));
+  Add(std::make_unique<Part>(PartShape::kSheet, rest, kLastCentre, size, Mix(seed) + parts_.size()),
+      rest, progress);
+}
+
+void SynthSurface::PlanRange(uint64_t vertices, uint64_t seed, parallel::Progress& progress) {
+  const double in_view = kViewsShare * static_cast<double>(vertices) / kViews;
+  const double pitch = std::sqrt(RangeView::PixelsSeen(1) / in_view);
+  for (uint64_t view = 0; view < kViews; ++view) {
+    if (in_view < kMinPartSamples) break;
+    const double turn = static_cast<double>(view) / kViews;
+    // What is left must do for a board.
+    Add(std::make_unique<RangeView>(pitch, turn, kRises[view % 2], seed, Mix(seed) + view + 1),
+        vertices - vertices_ - kMinVertices, progress);
+  }
+  const uint64_t rest = vertices - vertices_;
+  Add(std::make_unique<RangeBoard>(rest, pitch, Mix(seed)), rest, progress);
 }
 
 void SynthSurface::Generate(SurfaceSink& sink, parallel::Progress& progress) const {
   progress.StartStage("write", vertices_);
   uint64_t first_vertex = 0;
-  for (const Part& part : parts_) {
-    first_vertex += MakePart(part, first_vertex, &sink, progress)[0];
+  for (const auto& part : parts_) {
+    first_vertex += MakePart(*part, first_vertex, &sink, progress)[0];
   }
 }
 

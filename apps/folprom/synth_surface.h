@@ -3,10 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "apps/folprom/synth_part.h"
+#include "apps/folprom/synth_rows.h"
 #include "io/formats/mesh_source.h"
 #include "parallel/progress.h"
 
@@ -20,9 +21,13 @@ class SurfaceSink {
   virtual void AddFaces(std::span<const io::Triangle> faces) = 0;
 };
 
-/// Several components with relief of many scales, holes, noise and irregular sampling. Every edge
-/// has one or two faces, oriented alike; no vertex is without a face. The same vertices and seed
-/// give the same surface on every machine. Methods throw parallel::Cancelled.
+enum class SynthKind : uint8_t {
+  kScan,  ///< several components with relief of many scales, holes, noise and irregular sampling
+  kRange  ///< depth images of an object, each a regular grid with holes, noise and jumps of depth
+};
+
+/// Every edge has one or two faces, oriented alike; no vertex is without a face. The same kind,
+/// vertices and seed give the same surface on every machine. Methods throw parallel::Cancelled.
 class SynthSurface {
  public:
   static constexpr uint64_t kMinVertices = 4;
@@ -30,7 +35,7 @@ class SynthSurface {
 
   /// First pass: counts what the holes take, and gives the rest to the last component, so that
   /// there are exactly `vertices` (kMinVertices .. kMaxVertices).
-  SynthSurface(uint64_t vertices, uint64_t seed, parallel::Progress& progress);
+  SynthSurface(SynthKind kind, uint64_t vertices, uint64_t seed, parallel::Progress& progress);
 
   uint64_t vertex_count() const { return vertices_; }
   uint64_t face_count() const { return faces_; }
@@ -39,7 +44,12 @@ class SynthSurface {
   void Generate(SurfaceSink& sink, parallel::Progress& progress) const;
 
  private:
-  std::vector<Part> parts_;
+  void PlanScan(uint64_t vertices, uint64_t seed, parallel::Progress& progress);
+  void PlanRange(uint64_t vertices, uint64_t seed, parallel::Progress& progress);
+  /// Unless it has more than `most` vertices, or none.
+  void Add(std::unique_ptr<RowSource> part, uint64_t most, parallel::Progress& progress);
+
+  std::vector<std::unique_ptr<RowSource>> parts_;
   uint64_t vertices_ = 0;
   uint64_t faces_ = 0;
 };

@@ -40,9 +40,10 @@ Ply ReadPly(const std::string& path) {
 
 class Synth : public CliTest {
  protected:
-  Ply Make(const std::string& vertices, const std::string& seed) const {
-    const Outcome outcome =
-        Run({"synth", "--vertices", vertices, "--seed", seed, "-o", Path("s.ply"), "-q", "-f"});
+  Ply Make(const std::string& vertices, const std::string& seed,
+           const std::string& kind = "scan") const {
+    const Outcome outcome = Run({"synth", "--kind", kind, "--vertices", vertices, "--seed", seed,
+                                 "-o", Path("s.ply"), "-q", "-f"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return ReadPly(Path("s.ply"));
   }
@@ -77,42 +78,9 @@ size_t ComponentCount(const Ply& ply, size_t at_least) {
                                            [&](const auto& s) { return s.second >= at_least; }));
 }
 
-TEST_F(Synth, GivesTheExactVertexCount) {
-  for (const char* vertices : {"4", "5", "6", "7", "8", "50", "999", "20000", "123457"}) {
-    for (const char* seed : {"1", "2", "18446744073709551615"}) {
-      EXPECT_EQ(Make(vertices, seed).positions.size(), std::stoull(vertices)) << seed;
-    }
-  }
-  EXPECT_EQ(Make("20k", "1").positions.size(), 20000u);
-}
-
-TEST_F(Synth, EveryEdgeHasOneOrTwoFacesOrientedAlike) {
-  for (const char* seed : {"1", "2", "3", "4"}) {
-    const Ply ply = Make("60000", seed);
-    const std::vector<Edge> edges = DirectedEdges(ply);
-    // Twice the same direction would be a third face, or two of opposite orientation.
-    EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
-    for (const auto& [a, b] : edges) {
-      ASSERT_LT(a, ply.positions.size());
-      ASSERT_NE(a, b);
-    }
-  }
-}
-
-TEST_F(Synth, EveryVertexHasAFace) {
-  const Ply ply = Make("60000", "1");
-  std::vector<char> used(ply.positions.size());
-  for (const auto& face : ply.faces) {
-    for (const uint32_t v : face) used[v] = 1;
-  }
-  EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
-}
-
-TEST_F(Synth, HasSeveralComponentsAndManyHoles) {
-  const Ply ply = Make("60000", "1");
-  EXPECT_GE(ComponentCount(ply, 1000), 4u);
+// Border edges stand in one direction only; each hole's border leads around it once.
+size_t BorderLoops(const Ply& ply) {
   const std::vector<Edge> edges = DirectedEdges(ply);
-  // Border edges stand in one direction only; each hole's border leads around it once.
   std::map<uint32_t, uint32_t> next;
   for (const auto& [a, b] : edges) {
     if (!std::binary_search(edges.begin(), edges.end(), Edge(b, a))) next[a] = b;
@@ -126,26 +94,93 @@ TEST_F(Synth, HasSeveralComponentsAndManyHoles) {
       at = next.find(to);
     }
   }
-  EXPECT_GE(loops, 20u);
+  return loops;
 }
 
-TEST_F(Synth, IsNoGrid) {
-  const Ply ply = Make("60000", "1");
+// Part of the vertices that have six faces.
+double ShareOfSixes(const Ply& ply) {
   std::vector<int> corners(ply.positions.size());
   for (const auto& face : ply.faces) {
     for (const uint32_t v : face) ++corners[v];
   }
   const auto six = std::count(corners.begin(), corners.end(), 6);
-  EXPECT_LT(static_cast<double>(six), 0.6 * static_cast<double>(corners.size()));
+  return static_cast<double>(six) / static_cast<double>(corners.size());
+}
+
+TEST_F(Synth, GivesTheExactVertexCount) {
+  for (const char* vertices : {"4", "5", "6", "7", "8", "50", "999", "20000", "123457"}) {
+    for (const char* seed : {"1", "2", "18446744073709551615"}) {
+      EXPECT_EQ(Make(vertices, seed).positions.size(), std::stoull(vertices)) << seed;
+      EXPECT_EQ(Make(vertices, seed, "range").positions.size(), std::stoull(vertices)) << seed;
+    }
+  }
+  EXPECT_EQ(Make("20k", "1").positions.size(), 20000u);
+}
+
+TEST_F(Synth, EveryEdgeHasOneOrTwoFacesOrientedAlike) {
+  for (const char* kind : {"scan", "range"}) {
+    for (const char* seed : {"1", "2", "3", "4"}) {
+      const Ply ply = Make("60000", seed, kind);
+      const std::vector<Edge> edges = DirectedEdges(ply);
+      // Twice the same direction would be a third face, or two of opposite orientation.
+      EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
+      for (const auto& [a, b] : edges) {
+        ASSERT_LT(a, ply.positions.size());
+        ASSERT_NE(a, b);
+      }
+    }
+  }
+}
+
+TEST_F(Synth, EveryVertexHasAFace) {
+  for (const char* kind : {"scan", "range"}) {
+    const Ply ply = Make("60000", "1", kind);
+    std::vector<char> used(ply.positions.size());
+    for (const auto& face : ply.faces) {
+      for (const uint32_t v : face) used[v] = 1;
+    }
+    EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
+  }
+}
+
+TEST_F(Synth, HasSeveralComponentsAndManyHoles) {
+  for (const char* kind : {"scan", "range"}) {
+    const Ply ply = Make("60000", "1", kind);
+    EXPECT_GE(ComponentCount(ply, 1000), 4u);
+    EXPECT_GE(BorderLoops(ply), 20u);
+  }
+}
+
+TEST_F(Synth, IsNoGrid) { EXPECT_LT(ShareOfSixes(Make("60000", "1")), 0.6); }
+
+TEST_F(Synth, RangeScansAreGrids) { EXPECT_GT(ShareOfSixes(Make("60000", "1", "range")), 0.85); }
+
+TEST_F(Synth, RangeScansJoinNothingAcrossAJumpOfTheDepth) {
+  const Ply ply = Make("60000", "1", "range");
+  // A jump is as long as the object's parts lie behind each other, many times the pixels' distance.
+  std::vector<double> lengths;
+  for (const auto& face : ply.faces) {
+    double squared = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const double d = static_cast<double>(ply.positions[face[0]][k]) -
+                       static_cast<double>(ply.positions[face[1]][k]);
+      squared += d * d;
+    }
+    lengths.push_back(squared);
+  }
+  std::sort(lengths.begin(), lengths.end());
+  EXPECT_LT(lengths.back(), 8 * 8 * lengths[lengths.size() / 2]);
 }
 
 TEST_F(Synth, SameSeedGivesTheSameBytesAnotherSeedOthers) {
-  Make("30000", "7");
-  const std::string first = FileText(Path("s.ply"));
-  Make("30000", "7");
-  EXPECT_EQ(FileText(Path("s.ply")), first);
-  Make("30000", "8");
-  EXPECT_NE(FileText(Path("s.ply")), first);
+  for (const char* kind : {"scan", "range"}) {
+    Make("30000", "7", kind);
+    const std::string first = FileText(Path("s.ply"));
+    Make("30000", "7", kind);
+    EXPECT_EQ(FileText(Path("s.ply")), first);
+    Make("30000", "8", kind);
+    EXPECT_NE(FileText(Path("s.ply")), first);
+  }
   ASSERT_EQ(Run({"synth", "--vertices", "30000", "-o", Path("d.ply"), "-q"}).exit_code, 0);
   Make("30000", "1");
   EXPECT_EQ(FileText(Path("s.ply")), FileText(Path("d.ply")));
@@ -158,6 +193,7 @@ TEST_F(Synth, ReportsAsJson) {
   const auto report = outcome.json();
   EXPECT_EQ(report.at("vertices"), 10000);
   EXPECT_EQ(report.at("faces"), ReadPly(Path("s.ply")).faces.size());
+  EXPECT_EQ(report.at("kind"), "scan");
   EXPECT_EQ(report.at("seed"), 1);
   EXPECT_GT(report.at("peak_rss_bytes"), 0);
   EXPECT_GE(report.at("seconds"), 0.0);
@@ -165,20 +201,23 @@ TEST_F(Synth, ReportsAsJson) {
 
 TEST_F(Synth, MemoryDoesNotGrowWithTheMesh) {
   if (support::kSanitized) GTEST_SKIP() << "a sanitizer's own memory would be counted";
-  const auto peak = [&](const char* vertices) {
-    return Run({"synth", "--vertices", vertices, "-o", Path("s.ply"), "-f", "--json"})
+  const auto peak = [&](const char* kind, const char* vertices) {
+    return Run({"synth", "--kind", kind, "--vertices", vertices, "-o", Path("s.ply"), "-f",
+                "--json"})
         .json()
         .at("peak_rss_bytes")
         .get<uint64_t>();
   };
   // 3M vertices are 110 MB of positions and faces.
-  EXPECT_LT(peak("3M"), peak("10k") + (uint64_t{16} << 20));
+  EXPECT_LT(peak("scan", "3M"), peak("scan", "10k") + (uint64_t{16} << 20));
+  EXPECT_LT(peak("range", "1M"), peak("range", "10k") + (uint64_t{16} << 20));
 }
 
 TEST_F(Synth, RejectsImpossibleSizes) {
   for (const char* vertices : {"0", "3", "1e12", "-5", "many"}) {
     ExpectError({"synth", "--vertices", vertices, "-o", Path("s.ply")}, 2, "--vertices");
   }
+  ExpectError({"synth", "--vertices", "10", "--kind", "lidar", "-o", Path("s.ply")}, 2, "--kind");
   EXPECT_TRUE(Files().empty());
 }
 

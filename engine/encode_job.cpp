@@ -150,10 +150,12 @@ void EncodeJob::Partition() {
   uint32_t per_octave = options_.codec.layers_per_octave;
   double edge = TypicalEdge();
   Offsets offsets = options_.codec.offsets;
+  const uint32_t first_steps = FirstStepsFor(parameters_.extent, edge, source_->vertex_count(),
+                                             options_.codec.least_layer, per_octave);
   parameters_.schedule =
       LayerSchedule(parameters_.extent, per_octave, options_.codec.rounds_per_layer,
-                    SplitLayersFor(parameters_.extent, edge, per_octave, offsets),
-                    RefineLayersFor(parameters_.extent, edge, per_octave, offsets));
+                    SplitLayersFor(parameters_.extent, edge, per_octave, offsets, first_steps),
+                    RefineLayersFor(parameters_.extent, edge, per_octave, offsets), first_steps);
 }
 
 double EncodeJob::TypicalEdge() const {
@@ -255,17 +257,25 @@ void EncodeJob::DropEmptyLayers() {
     return std::any_of(outcomes_.begin(), outcomes_.end(),
                        [&](const Outcome& outcome) { return outcome.active[layer]; });
   };
+  // The last split layer takes its precision from the layer before it.
+  const bool lattice = options_.codec.offsets == Offsets::kLattice;
+  const auto shift_after = [&](uint32_t layers) {
+    return lattice && layers > 0 ? parameters_.schedule.LatticeShift(layers - 1) : 0;
+  };
   uint32_t kept_split = split - 1;
-  while (kept_split > 0 && !active(kept_split - 1)) --kept_split;
+  while (kept_split > 0 && !active(kept_split - 1) &&
+         shift_after(kept_split - 1) == shift_after(split - 1)) {
+    --kept_split;
+  }
   uint32_t first_refine = split;
   while (first_refine < all && !active(first_refine)) ++first_refine;
   kept_layers_.clear();
   for (uint32_t layer = 0; layer < kept_split; ++layer) kept_layers_.push_back(layer);
   kept_layers_.push_back(split - 1);
   for (uint32_t layer = first_refine; layer < all; ++layer) kept_layers_.push_back(layer);
-  parameters_.schedule =
-      LayerSchedule(parameters_.extent, options_.codec.layers_per_octave,
-                    options_.codec.rounds_per_layer, kept_split + 1, all - first_refine);
+  parameters_.schedule = LayerSchedule(parameters_.extent, options_.codec.layers_per_octave,
+                                       options_.codec.rounds_per_layer, kept_split + 1,
+                                       all - first_refine, parameters_.schedule.first_steps());
 }
 
 io::FileTable EncodeJob::MakeTable() {

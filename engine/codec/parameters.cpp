@@ -25,11 +25,28 @@ constexpr double kLatticeCellsPerSpacing = 12;
 /// vertices, less than the table says of them.
 constexpr double kFirstSpacing = 4;
 
+/// Steps that a schedule is worked out for; one of more is refused when it is read.
+constexpr uint32_t kMostSteps = 4096;
+
 double HalvedBy(double value, double octaves) {
   uint32_t whole = static_cast<uint32_t>(octaves);
   value = value * ExpExact(-(octaves - static_cast<double>(whole)) * kLog2);
   for (uint32_t i = 0; i < whole; ++i) value = value / 2;
   return value;
+}
+
+/// Steps after the layer that begins when `done` are done.
+uint32_t NextStep(uint32_t done, uint32_t first_steps, uint32_t layers_per_octave) {
+  if (first_steps == 1) return done + 1;
+  // Vertices over those after the first layer. Two octaves on a step adds more than one of them.
+  const auto vertices = [&](uint32_t steps) {
+    return ExpExact(2 * kLog2 * static_cast<double>(steps - first_steps) / layers_per_octave);
+  };
+  if (done - first_steps >= 2 * layers_per_octave) return done + 1;
+  const double grown = vertices(done) + 1;
+  while (vertices(++done) < grown) {
+  }
+  return done;
 }
 
 double Longest(const Int3& extent) {
@@ -40,12 +57,19 @@ double Longest(const Int3& extent) {
 
 LayerSchedule::LayerSchedule(const Int3& extent, uint32_t layers_per_octave,
                              uint32_t rounds_per_layer, uint32_t split_layers,
-                             uint32_t refine_layers)
+                             uint32_t refine_layers, uint32_t first_steps)
     : longest_(Longest(extent)),
       layers_per_octave_(layers_per_octave),
       rounds_per_layer_(rounds_per_layer),
       split_layers_(split_layers),
-      refine_layers_(refine_layers) {}
+      refine_layers_(refine_layers),
+      first_steps_(first_steps) {
+  uint32_t done = first_steps;
+  for (uint32_t layer = 0; layer + 1 < split_layers && layer < kMostSteps; ++layer) {
+    steps_.push_back(done);
+    done = NextStep(done, first_steps, layers_per_octave);
+  }
+}
 
 uint32_t LayerSchedule::rounds(uint32_t layer) const {
   return layer < split_layers_ && !IsLastSplitLayer(layer) ? rounds_per_layer_ : 1;
@@ -53,8 +77,9 @@ uint32_t LayerSchedule::rounds(uint32_t layer) const {
 
 double LayerSchedule::SplitSpacing(uint32_t layer, uint32_t round) const {
   if (IsLastSplitLayer(layer)) return 0;
-  double steps = static_cast<double>(layer) +
-                 static_cast<double>(round + 1) / static_cast<double>(rounds_per_layer_);
+  const uint32_t before = layer == 0 ? 0 : steps_[layer - 1];
+  const double share = static_cast<double>(round + 1) / static_cast<double>(rounds_per_layer_);
+  const double steps = static_cast<double>(before) + share * (steps_[layer] - before);
   return HalvedBy(longest_ / kFirstSpacing, steps / static_cast<double>(layers_per_octave_));
 }
 
@@ -81,12 +106,26 @@ uint32_t LayerSchedule::LatticeShift(uint32_t layer) const {
   return cells < 2 ? 0 : static_cast<uint32_t>(std::bit_width(cells)) - 1;
 }
 
+uint32_t FirstStepsFor(const Int3& extent, double typical_edge, uint64_t vertices,
+                       uint32_t least_layer, uint32_t layers_per_octave) {
+  if (!(typical_edge > 0) || vertices == 0 || least_layer == 0) return 1;
+  const double apart = typical_edge * std::sqrt(static_cast<double>(vertices) / least_layer);
+  const double ratio = std::max(Longest(extent) / kFirstSpacing / apart, 1.0);
+  const double steps = Log2Exact(ratio) * layers_per_octave;
+  return static_cast<uint32_t>(std::clamp(std::ceil(steps), 1.0, double{kMostFirstSteps}));
+}
+
 uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
-                        Offsets offsets) {
+                        Offsets offsets, uint32_t first_steps) {
   double least = offsets == Offsets::kLattice ? 1 : 2 * kUnitsPerTolerance;
   double finest = std::max(typical_edge / 2, least);
   double octaves = std::max(Log2Exact(Longest(extent) / finest), 0.0);
-  return static_cast<uint32_t>(octaves * layers_per_octave) + 2;
+  const uint32_t steps = static_cast<uint32_t>(octaves * layers_per_octave) + 1;
+  uint32_t layers = 2;
+  for (uint32_t done = first_steps; done < steps; ++layers) {
+    done = NextStep(done, first_steps, layers_per_octave);
+  }
+  return layers;
 }
 
 uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
@@ -159,7 +198,8 @@ std::vector<uint8_t> WriteParameters(const CodecParameters& parameters) {
     }
     ++key;
   });
-  for (uint32_t count : {parameters.schedule.split_layers(), parameters.schedule.refine_layers()}) {
+  for (uint32_t count : {parameters.schedule.split_layers(), parameters.schedule.refine_layers(),
+                         parameters.schedule.first_steps()}) {
     const auto stored = static_cast<uint16_t>(std::min(count, 0xffffu));
     Append(&bytes, &stored, sizeof stored);
   }
@@ -176,14 +216,33 @@ std::vector<uint8_t> WriteParameters(const CodecParameters& parameters) {
 
 namespace {
 
+/// Values from the front of the settings' bytes.
+class Fields {
+ public:
+  explicit Fields(std::span<const uint8_t> bytes) : bytes_(bytes) {}
+
+  size_t left() const { return bytes_.size(); }
+  template <class T>
+  T Take() {
+    if (bytes_.size() < sizeof(T)) {
+      throw Failure(ErrorKind::kCorrupt, "settings of the coder end early");
+    }
+    T value;
+    std::memcpy(&value, bytes_.data(), sizeof value);
+    bytes_ = bytes_.subspan(sizeof value);
+    return value;
+  }
+
+ private:
+  std::span<const uint8_t> bytes_;
+};
+
 /// Radix, exponent and has_rests from their 6 bytes.
-template <class Take>
-ExactLattice ReadExact(const CodecSettings& settings, Take take) {
-  uint8_t radix = 0, has_rests = 0;
+ExactLattice ReadExact(const CodecSettings& settings, Fields* fields) {
   ExactLattice exact;
-  take(&radix, sizeof radix);
-  take(&exact.step.exponent, sizeof exact.step.exponent);
-  take(&has_rests, sizeof has_rests);
+  const auto radix = fields->Take<uint8_t>();
+  exact.step.exponent = fields->Take<int32_t>();
+  const auto has_rests = fields->Take<uint8_t>();
   const int32_t least = radix == 2 ? ExactStep::kLeastBits : 0;
   const int32_t most = radix == 2 ? ExactStep::kMostBits : ExactStep::kMostDecimals;
   if ((radix != 2 && radix != 10) || exact.step.exponent < least || exact.step.exponent > most ||
@@ -200,16 +259,9 @@ ExactLattice ReadExact(const CodecSettings& settings, Take take) {
 CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& extent) {
   CodecParameters parameters;
   parameters.extent = extent;
-  size_t position = 0;
-  auto take = [&](void* target, size_t size) {
-    if (bytes.size() - position < size) {
-      throw Failure(ErrorKind::kCorrupt, "settings of the coder end early");
-    }
-    std::memcpy(target, bytes.data() + position, size);
-    position += size;
-  };
+  Fields fields(bytes);
   std::vector<uint8_t> differs(BitmapBytes());
-  take(differs.data(), differs.size());
+  for (uint8_t& eight : differs) eight = fields.Take<uint8_t>();
   size_t key = 0;
   ForEachMember([&](auto member) {
     auto& value = parameters.settings.*member;
@@ -218,7 +270,7 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
         value = !value;
       } else {
         const auto usual = value;
-        take(&value, sizeof value);
+        value = fields.Take<std::decay_t<decltype(value)>>();
         if (value == usual) {
           throw Failure(ErrorKind::kCorrupt, "settings of the coder: a usual value is spelt out");
         }
@@ -229,10 +281,10 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
   if (key % 8 != 0 && differs.back() >> key % 8 != 0) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: a key that does not exist");
   }
-  uint16_t counts[2];
-  take(counts, sizeof counts);
-  if (position != bytes.size()) parameters.exact = ReadExact(parameters.settings, take);
-  if (position != bytes.size()) {
+  const auto split_layers = fields.Take<uint16_t>(), refine_layers = fields.Take<uint16_t>();
+  const auto first_steps = fields.Take<uint16_t>();
+  if (fields.left() > 0) parameters.exact = ReadExact(parameters.settings, &fields);
+  if (fields.left() > 0) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder are longer than expected");
   }
   Result<void> checked = CheckSettings(parameters.settings);
@@ -241,12 +293,15 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
   }
   uint32_t per_octave = parameters.settings.layers_per_octave;
   Offsets offsets = parameters.settings.offsets;
-  if (counts[0] < 1 || counts[0] > SplitLayersFor(extent, 0, per_octave, offsets) ||
-      counts[1] > RefineLayersFor(extent, 0, per_octave, offsets)) {
+  if (split_layers < 1 || split_layers > SplitLayersFor(extent, 0, per_octave, offsets) ||
+      refine_layers > RefineLayersFor(extent, 0, per_octave, offsets)) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: number of layers out of range");
   }
-  parameters.schedule =
-      LayerSchedule(extent, per_octave, parameters.settings.rounds_per_layer, counts[0], counts[1]);
+  if (first_steps < 1 || first_steps > kMostFirstSteps) {
+    throw Failure(ErrorKind::kCorrupt, "settings of the coder: steps of the first layer");
+  }
+  parameters.schedule = LayerSchedule(extent, per_octave, parameters.settings.rounds_per_layer,
+                                      split_layers, refine_layers, first_steps);
   return parameters;
 }
 

@@ -22,16 +22,22 @@ namespace folprom {
 inline constexpr double kLeafBound = 30.5;
 
 /// Layers 0 .. split_layers-1 split sets, the rest refine single vertices. The spacing below which
-/// sets wait falls from layer to layer by 2^(1/layers_per_octave); in the last split layer nothing
-/// waits. The bound on a vertex's cell falls by the same factor and ends at kLeafBound.
+/// sets wait falls by 2^(1/layers_per_octave) a step; in the last split layer nothing waits. The
+/// bound on a vertex's cell falls by the same factor a layer and ends at kLeafBound.
+///
+/// The first layer takes first_steps steps. Where those are more than one, a later layer takes
+/// steps until the vertices of a surface, which grow with the square of the spacing, have grown by
+/// as many as it had after the first layer: layers of a few vertices cost more to tell than they
+/// hold. first_steps = 1: a layer is a step.
 class LayerSchedule {
  public:
   LayerSchedule() = default;
   LayerSchedule(const Int3& extent, uint32_t layers_per_octave, uint32_t rounds_per_layer,
-                uint32_t split_layers, uint32_t refine_layers);
+                uint32_t split_layers, uint32_t refine_layers, uint32_t first_steps = 1);
 
   uint32_t split_layers() const { return split_layers_; }
   uint32_t refine_layers() const { return refine_layers_; }
+  uint32_t first_steps() const { return first_steps_; }
   uint32_t layers() const { return split_layers_ + refine_layers_; }
   uint32_t rounds(uint32_t layer) const;
   bool IsLastSplitLayer(uint32_t layer) const { return layer + 1 == split_layers_; }
@@ -46,14 +52,22 @@ class LayerSchedule {
  private:
   double longest_ = 1;
   uint32_t layers_per_octave_ = 1, rounds_per_layer_ = 1;
-  uint32_t split_layers_ = 1, refine_layers_ = 0;
+  uint32_t split_layers_ = 1, refine_layers_ = 0, first_steps_ = 1;
+  std::vector<uint32_t> steps_;  ///< done after each split layer but the last
 };
+
+/// Most steps of a first layer.
+inline constexpr uint32_t kMostFirstSteps = 255;
+/// Steps after which `vertices`, typical_edge lattice units apart on a surface, are represented by
+/// least_layer ones or more; 1 where one of the three is not known (0).
+uint32_t FirstStepsFor(const Int3& extent, double typical_edge, uint64_t vertices,
+                       uint32_t least_layer, uint32_t layers_per_octave);
 
 /// Numbers of layers before empty ones are dropped, for vertices `typical_edge` lattice units apart
 /// (0: unknown). Sets and cells far from typical share the last split and the first refine layer
 /// instead of having many nearly empty ones.
 uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
-                        Offsets offsets);
+                        Offsets offsets, uint32_t first_steps = 1);
 uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
                          Offsets offsets);
 

@@ -8,18 +8,14 @@
 namespace folprom {
 namespace {
 
-/// Sets whose spacing is so many times that of the round are split without asking.
-constexpr double kSurelyDue = 4;
 /// With it the spacing that stands for a distortion is about the spacing of the sets that have it.
 constexpr double kDistortionScale = 1.4;
-constexpr uint32_t kDueBuckets = 24;
-
-/// A length over the round's spacing in quarter octaves; the round's spacing itself is 16.
-uint32_t DueBucket(double length, double least_spacing) {
-  double ratio = length / least_spacing;
-  int bucket = HalfOctave(static_cast<uint64_t>(std::min(256 * ratio * ratio, 1e9)));
-  return static_cast<uint32_t>(std::clamp(bucket, 0, static_cast<int>(kDueBuckets) - 1));
-}
+/// Asking goes on while so many wait for each that is due: the surface is flat beside its features.
+constexpr double kWaitingPerDue = 1.6;
+/// It ends when so few are due.
+constexpr double kLeastDue = 0.02;
+/// Or when so many times distortion_first is live.
+constexpr double kMostAsked = 3;
 
 /// Coordinate `value` in [lo, hi], all equally likely.
 template <class Coder>
@@ -63,9 +59,10 @@ CostMeters& CostMeters::operator+=(const CostMeters& other) {
 SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape& shape)
     : parameters_(parameters),
       shape_(shape),
+      grid_leaf_({4 * 4 * 5, 16 * 64, 16 * 64}),
       split_coder_(parameters.connectivity()),
       finer_same_({2}),
-      due_({kDueBuckets * kDueBuckets, kDueBuckets}),
+      still_asking_({1}),
       border_both_({16}),
       border_side_({1}),
       exceptions_(shape.mesh_faces) {
@@ -83,7 +80,7 @@ SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape
 void SubtreeCoder::Visit(LearnedStateVisitor& visitor) {
   if (lattice_coder_) lattice_coder_->Visit(visitor);
   split_coder_.Visit(visitor);
-  due_.Visit(visitor);
+  due_model_.Visit(visitor);
   leaf_model_.Visit(visitor);
   border_both_.Visit(visitor);
   border_side_.Visit(visitor);
@@ -152,7 +149,12 @@ void SubtreeCoder::CodeRoot(Coder& coder, SubtreeTruth* truth) {
   }
   if (record.state != kLeaf) open_.push_back(0);
   sets_.push_back(record);
-  if (lattice_coder_) lattice_coder_->AddRoot();
+  if (!lattice_coder_) return;
+  lattice_coder_->AddRoot();
+  if (coder.Code(32768, Coder::kEncoding && truth->OnGrid())) {
+    grid_.emplace();
+    grid_->AddRoot();
+  }
 }
 
 double SubtreeCoder::Spacing(uint32_t set) const {
@@ -192,20 +194,50 @@ LeafSigns SubtreeCoder::SignsOf(uint32_t set, double spacing) {
 }
 
 template <class Coder>
+bool SubtreeCoder::CodeAsking(Coder& coder, double least_spacing, const SubtreeTruth* truth) {
+  if (!(least_spacing > 0)) return false;
+  const double always = parameters_.settings.distortion_first * shape_.vertices;
+  if (static_cast<double>(positions_.size()) < always) return true;
+  if (!asking_ || static_cast<double>(positions_.size()) > kMostAsked * always) return false;
+  bool pays = false;
+  if constexpr (Coder::kEncoding) {
+    uint32_t waiting = 0, due = 0;
+    for (uint32_t set : open_) {
+      if (IsDue(*truth, set, least_spacing)) {
+        ++due;
+      } else if (Spacing(set) >= least_spacing) {
+        ++waiting;
+      }
+    }
+    pays = waiting >= kWaitingPerDue * due && due >= kLeastDue * waiting;
+  }
+  return still_asking_.Code(coder, {0}, 0, pays);
+}
+
+bool SubtreeCoder::IsDue(const SubtreeTruth& truth, uint32_t set, double least_spacing) const {
+  // Distortion grows with the fourth power of the spacing.
+  const Int3& extent = parameters_.extent;
+  const double longest = std::max({extent.x, extent.y, extent.z});
+  const double fourth = kDistortionScale * truth.Distortion(set) * longest;
+  return std::sqrt(std::sqrt(fourth)) >= least_spacing;
+}
+
+template <class Coder>
 void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth,
                              CostMeters* meters) {
-  const bool asking = least_spacing > 0 && positions_.size() > 1 &&
-                      static_cast<double>(positions_.size()) <
-                          parameters_.settings.distortion_first * shape_.vertices;
+  ++round_;
+  coder.SetMeter(&meters->split);
+  asking_ = CodeAsking(coder, least_spacing, truth);
+  if (grid_) OrderAlongSurface();
   // Children that are still large enough join the end of the list and the same round.
   size_t kept = 0;
   for (size_t i = 0; i < open_.size(); ++i) {
     uint32_t set = open_[i];
     SetRecord& record = sets_[set];
     if (record.state == kLeaf) continue;
-    if (asking) {
+    if (asking_) {
       double now = Spacing(set);
-      if (CodeDue(coder, set, now, least_spacing, truth, meters)) {
+      if (positions_.size() == 1 || CodeDue(coder, set, now, least_spacing, truth, meters)) {
         CodeSet(coder, set, now, truth, meters);
       } else {
         open_[kept++] = set;
@@ -227,22 +259,58 @@ void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* t
   open_.resize(kept);
 }
 
+DueSigns SubtreeCoder::DueSignsOf(uint32_t set, double spacing, double least_spacing) {
+  DueSigns signs;
+  signs.spacing = spacing / least_spacing;
+  signs.scale = static_cast<double>(sets_[set].scale) / least_spacing;
+  const RingShape ring = ShapeAround(set);
+  const Int3& extent = parameters_.extent;
+  const double longest = std::max({extent.x, extent.y, extent.z});
+  const double fourth = ring.spacing * ring.spacing * ring.height_range * longest;
+  signs.distortion = std::sqrt(std::sqrt(fourth)) / least_spacing;
+  signs.asked = sets_[set].asked + 1 == round_;
+  for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
+    const SetRecord& other = sets_[complex_.half_edge(h).target];
+    if (other.state == kLeaf) continue;
+    if (other.asked == round_) ++signs.waiting;
+    if (other.asked == 0) ++signs.split;
+  }
+  return signs;
+}
+
+void SubtreeCoder::OrderAlongSurface() {
+  std::vector<uint8_t> state(positions_.size(), 0);  // 1: open, 2: open and reached, 3: reached
+  for (uint32_t set : open_) state[set] = 1;
+  std::vector<uint32_t> reached, ordered;
+  for (uint32_t start : open_) {
+    if (state[start] != 1) continue;
+    state[start] = 2;
+    reached.assign(1, start);
+    for (size_t i = 0; i < reached.size(); ++i) {
+      const uint32_t set = reached[i];
+      if (state[set] == 2) ordered.push_back(set);
+      for (uint32_t h = complex_.FirstHalfEdge(set); h != kNone; h = complex_.half_edge(h).next) {
+        const uint32_t other = complex_.half_edge(h).target;
+        if (state[other] >= 2) continue;
+        state[other] = state[other] == 1 ? 2 : 3;
+        reached.push_back(other);
+      }
+    }
+  }
+  open_ = std::move(ordered);
+}
+
 template <class Coder>
 bool SubtreeCoder::CodeDue(Coder& coder, uint32_t set, double spacing, double least_spacing,
                            SubtreeTruth* truth, CostMeters* meters) {
-  if (spacing >= kSurelyDue * least_spacing) return true;
   bool due = false;
   if constexpr (Coder::kEncoding) {
-    // Distortion grows with the fourth power of the spacing.
-    const Int3& extent = parameters_.extent;
-    double longest = std::max({extent.x, extent.y, extent.z});
-    double fourth = kDistortionScale * truth->Distortion(set) * longest;
-    due = std::sqrt(std::sqrt(fourth)) >= least_spacing;
+    due = IsDue(*truth, set, least_spacing);
   }
   coder.SetMeter(&meters->split);
-  uint32_t near = DueBucket(spacing, least_spacing);
-  uint32_t reach = DueBucket(static_cast<double>(sets_[set].scale), least_spacing);
-  return due_.Code(coder, {near * kDueBuckets + reach, near}, 0, due);
+  due = due_model_.Code(coder, DueSignsOf(set, spacing, least_spacing), due);
+  sets_[set].asked = due ? 0 : round_;
+  return due;
 }
 
 template <class Coder>
@@ -256,7 +324,13 @@ void SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTr
     count = std::min(shape_.vertices, parameters_.children());
   } else {
     const LeafSigns signs = SignsOf(set, spacing);
-    const bool leaf = leaf_model_.Code(coder, signs, count == 1);
+    // Nothing is left to be split once all vertices are there.
+    bool leaf = positions_.size() == shape_.vertices;
+    if (!leaf && grid_) {
+      leaf = CodeGridLeaf(coder, set, spacing, count == 1);
+    } else if (!leaf) {
+      leaf = leaf_model_.Code(coder, signs, count == 1);
+    }
     if (leaf) {
       count = 1;
     } else if (offset_coder_) {
@@ -278,6 +352,24 @@ void SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTr
   } else {
     CodeChildren(coder, set, count, truth, meters);
   }
+}
+
+template <class Coder>
+bool SubtreeCoder::CodeGridLeaf(Coder& coder, uint32_t set, double spacing, bool leaf) {
+  const GridPeers peers = grid_->PeersOf(
+      complex_, positions_, set, [&](uint32_t other) { return sets_[other].state == kLeaf; });
+  const GridHint hint = grid_->Expect(complex_, positions_, set);
+  const uint32_t expects = hint.found ? 1 + hint.support : 0;
+  const uint32_t known = std::min(peers.leaves, 3u) * 4 + std::min(peers.split, 3u);
+  const double octaves = 8 * 1.44269504 * detail::FastLog(std::max(spacing, 1.0));
+  const auto fine = static_cast<uint32_t>(std::min(octaves, 63.0));
+  const double ratio =
+      32 + 12 * 1.44269504 *
+               detail::FastLog(std::max(spacing, 0.1) /
+                               std::max(static_cast<double>(sets_[set].scale), 0.1));
+  const auto made = static_cast<uint32_t>(std::clamp(ratio, 0.0, 63.0));
+  return grid_leaf_.Code(coder, {known * 5 + expects, known * 64 + fine, known * 64 + made}, 0,
+                         leaf);
 }
 
 template <class Coder>
@@ -346,18 +438,31 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, SubtreeTruth* truth
     position = truth->ChildRepresentative(set, 1);
     truth->BeginSplit(set, kOrder);
   }
-  position = lattice_coder_->CodeNew(coder, positions_[set], ShapeAround(set), precision_, position,
-                                     &meters->offsets.rho, &meters->offsets.z);
+  GridHint hint;
+  if (grid_) hint = grid_->Expect(complex_, positions_, set);
+  if (hint.found) {
+    coder.SetMeter(&meters->offsets.theta);
+    position = lattice_coder_->CodeOnGrid(coder, positions_[set], hint, position);
+  } else {
+    position = lattice_coder_->CodeNew(coder, positions_[set], ShapeAround(set), precision_,
+                                       position, &meters->offsets.rho, &meters->offsets.z);
+  }
   if constexpr (Coder::kEncoding) {
     truth->BeginBinarySplit(set, std::span(kOrder).first(1), std::span(kOrder).last(1));
   }
   const Int3 kept = positions_[set];
   Vector3 d = Difference(position, kept);
-  uint32_t added = CodeBinarySplit(coder, set, kept, position, truth, meters);
+  uint32_t added =
+      CodeBinarySplit(coder, set, kept, position, hint.found ? &hint : nullptr, truth, meters);
+  if (grid_) {
+    grid_->AddSplit(set, added);
+    if (hint.found) grid_->SetKind(split_coder_.last_kind());
+  }
   if constexpr (Coder::kEncoding) truth->EndBinarySplit(added);
   for (uint32_t child : {set, added}) {
     sets_[child].scale = static_cast<float>(std::sqrt(Dot(d, d)));
     sets_[child].spacing = kUnmeasured;
+    sets_[child].asked = 0;
     open_.push_back(child);
   }
 }
@@ -365,7 +470,7 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, SubtreeTruth* truth
 template <class Coder>
 void SubtreeCoder::CodePrecision(Coder& coder, SubtreeTruth* truth) {
   const uint32_t shift = parameters_.schedule.LatticeShift(layer_);
-  const bool growing = layer_ < parameters_.schedule.split_layers() && !open_.empty();
+  const bool growing = shift > 0 && layer_ < parameters_.schedule.split_layers() && !open_.empty();
   if (growing) {
     LatticePrecision chosen;
     if constexpr (Coder::kEncoding) chosen = truth->Precision(complex_, open_, shift);
@@ -459,7 +564,7 @@ void SubtreeCoder::CodeBinarySplits(Coder& coder, uint32_t set, SubtreeTruth* tr
     const Group &first = groups_[group.first], &second = groups_[group.second];
     if constexpr (Coder::kEncoding) truth->BeginBinarySplit(now.set, first.places, second.places);
     uint32_t added =
-        CodeBinarySplit(coder, now.set, first.position, second.position, truth, meters);
+        CodeBinarySplit(coder, now.set, first.position, second.position, nullptr, truth, meters);
     if constexpr (Coder::kEncoding) truth->EndBinarySplit(added);
     pending.push_back({group.second, added});
     pending.push_back({group.first, now.set});
@@ -468,9 +573,10 @@ void SubtreeCoder::CodeBinarySplits(Coder& coder, uint32_t set, SubtreeTruth* tr
 
 template <class Coder>
 uint32_t SubtreeCoder::CodeBinarySplit(Coder& coder, uint32_t set, const Int3& first,
-                                       const Int3& second, SubtreeTruth* truth,
-                                       CostMeters* meters) {
+                                       const Int3& second, const GridHint* hint,
+                                       SubtreeTruth* truth, CostMeters* meters) {
   SplitCoder::Known known;
+  known.grid = hint;
   known.first = first;
   known.second = second;
   SplitOracle* oracle = nullptr;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/codec/border_record.h"
+#include "engine/codec/due_model.h"
 #include "engine/codec/leaf_model.h"
 #include "engine/codec/parameters.h"
 #include "engine/codec/rest_coder.h"
@@ -17,6 +18,7 @@
 #include "engine/connectivity/face_exceptions.h"
 #include "engine/connectivity/split_coder.h"
 #include "engine/geometry/cylinder_cell.h"
+#include "engine/geometry/grid_pattern.h"
 #include "engine/geometry/lattice_coder.h"
 #include "engine/geometry/offset_coder.h"
 #include "engine/geometry/ring_shape.h"
@@ -28,6 +30,8 @@ namespace folprom {
 class SubtreeTruth : public RestTruth {
  public:
   virtual Int3 RootRepresentative() const = 0;
+  /// The sets come from rows and columns of regular grids.
+  virtual bool OnGrid() const = 0;
   /// Number of children of the set, 1 when it is a single vertex.
   virtual uint32_t ChildCount(uint32_t set) const = 0;
   /// What the set adds to the error of an LOD: area times distance, lattice units cubed.
@@ -106,6 +110,7 @@ class SubtreeCoder {
     float spacing = kUnmeasured;
     uint32_t cell = kNone;    ///< index into cells_; kNone: the position is exact
     uint32_t border = kNone;  ///< number of the border set
+    uint32_t asked = 0;       ///< the last round in which it was not due, 0: none since its split
     SetState state = kUnknown;
   };
 
@@ -114,6 +119,10 @@ class SubtreeCoder {
   template <class Coder>
   void CodeRound(Coder& coder, double spacing, SubtreeTruth* truth, CostMeters* meters);
   /// Is a set of this spacing split in a round down to `least_spacing`, while few are live.
+  /// Are sets asked in this round, those of large spacing too, whether they are split.
+  template <class Coder>
+  bool CodeAsking(Coder& coder, double least_spacing, const SubtreeTruth* truth);
+  bool IsDue(const SubtreeTruth& truth, uint32_t set, double least_spacing) const;
   template <class Coder>
   bool CodeDue(Coder& coder, uint32_t set, double spacing, double least_spacing,
                SubtreeTruth* truth, CostMeters* meters);
@@ -139,10 +148,16 @@ class SubtreeCoder {
   void CodeBinarySplits(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters);
   template <class Coder>
   uint32_t CodeBinarySplit(Coder& coder, uint32_t set, const Int3& first, const Int3& second,
-                           SubtreeTruth* truth, CostMeters* meters);
+                           const GridHint* hint, SubtreeTruth* truth, CostMeters* meters);
+  /// Sets in an order in which each has neighbours before it.
+  void OrderAlongSurface();
+  /// Is a set of a grid a single vertex.
+  template <class Coder>
+  bool CodeGridLeaf(Coder& coder, uint32_t set, double spacing, bool leaf);
   template <class Coder>
   void CodeRefinement(Coder& coder, double bound, SubtreeTruth* truth, CostMeters* meters);
   double Spacing(uint32_t set) const;
+  DueSigns DueSignsOf(uint32_t set, double spacing, double least_spacing);
   LeafSigns SignsOf(uint32_t set, double spacing);
   void FinishChild(uint32_t place, uint32_t set);
 
@@ -158,6 +173,7 @@ class SubtreeCoder {
   CodecParameters parameters_;
   SubtreeShape shape_;
   uint32_t layer_ = 0;
+  uint32_t round_ = 0;  ///< the first is 1
 
   Complex complex_;
   std::vector<Int3> positions_;
@@ -170,6 +186,10 @@ class SubtreeCoder {
   BorderRecord border_;
   uint32_t border_sets_ = 0;
 
+  /// Where the sets come from regular grids.
+  std::optional<GridPattern> grid_;
+  /// Peers that are leaves, that were split since, and what the grid says of a next split.
+  MixedModel<3> grid_leaf_;
   SplitCoder split_coder_;
   // One of the two, as settings.offsets says.
   std::optional<LatticeCoder> lattice_coder_;
@@ -178,7 +198,9 @@ class SubtreeCoder {
   /// once more.
   std::array<uint32_t, 2> finer_{0, 0};
   MixedModel<1> finer_same_;
-  MixedModel<2> due_;
+  bool asking_ = false;
+  MixedModel<1> still_asking_;
+  DueModel due_model_;
   LeafModel leaf_model_;
   MixedModel<1> border_both_;
   MixedModel<1> border_side_;

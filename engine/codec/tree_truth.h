@@ -20,6 +20,7 @@ class TreeTruth final : public SubtreeTruth {
             const CodecParameters& parameters);
 
   Int3 RootRepresentative() const override { return tree_.node(0).representative; }
+  bool OnGrid() const override { return tree_.on_grid(); }
   uint32_t ChildCount(uint32_t set) const override;
   double Distortion(uint32_t set) const override {
     return tree_.node(node_of_set_[set]).distortion;

@@ -151,8 +151,14 @@ bool SplitCoder::CodeFan(Coder& coder, const Complex& complex, const std::vector
                       vertices - last_split_[vertex]};
   }
   coder.SetMeter(&meters->pivots);
-  if (!fan_model_) fan_model_ = std::make_unique<FanModel>();
-  cut_ = fan_model_->Code(coder, fan_, spokes_, relative(known.second), truth);
+  if (known.grid != nullptr && !grid_cuts_) grid_cuts_ = std::make_unique<GridCuts>();
+  const bool on_grid = known.grid != nullptr && grid_cuts_->Find(fan_, star_, *known.grid);
+  cut_ = on_grid ? grid_cuts_->Code(coder, fan_, truth) : FanCut{};
+  if (cut_.begin == cut_.end) {
+    if (!fan_model_) fan_model_ = std::make_unique<FanModel>();
+    cut_ = fan_model_->Code(coder, fan_, spokes_, relative(known.second), truth);
+  }
+  if (on_grid) grid_kind_ = grid_cuts_->Learn(fan_, *known.grid, cut_);
   star_.connected = true;
   PartFan(fan_, cut_, &star_);
   return true;
@@ -373,6 +379,7 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
                           uint32_t vertex, const Known& known, SplitOracle* oracle,
                           SplitMeters* meters, uint64_t* exception_meter) {
   Gather(complex, vertex);
+  grid_kind_ = 0;
   owns_child_edge_ = known.code_connected;
   while (last_split_.size() < complex.vertex_count()) {
     last_split_.push_back(static_cast<uint32_t>(last_split_.size()));

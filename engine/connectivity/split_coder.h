@@ -13,6 +13,7 @@
 #include "engine/connectivity/complex.h"
 #include "engine/connectivity/fan.h"
 #include "engine/connectivity/fan_model.h"
+#include "engine/connectivity/grid_cuts.h"
 #include "engine/connectivity/split_oracle.h"
 #include "engine/connectivity/split_star.h"
 #include "engine/entropy/mixed_model.h"
@@ -54,6 +55,7 @@ class SplitCoder {
     /// false: `connected` is known to both sides, and the edge belongs to another complex.
     bool code_connected = true;
     bool connected = false;
+    const GridHint* grid = nullptr;  ///< of a split that is one of many alike
   };
 
   /// Codes and applies the split of `vertex` into itself and a new vertex, which is returned.
@@ -66,6 +68,8 @@ class SplitCoder {
 
   /// Were the children of the split coded last connected.
   bool last_connected() const { return star_.connected; }
+  /// How it parted the ring of a grid's vertex; 0: nothing like a grid's.
+  uint8_t last_kind() const { return grid_kind_; }
   void Visit(LearnedStateVisitor& visitor);
 
  private:
@@ -113,6 +117,8 @@ class SplitCoder {
   double children_distance_ = 0;
   double mean_distance_ = 0;
 
+  std::unique_ptr<GridCuts> grid_cuts_;  ///< from the first fan of a grid on
+  uint8_t grid_kind_ = 0;
   MixedModel<1> stays_fan_;
   std::unique_ptr<FanModel> fan_model_;  ///< from the first fan on: most seams have none
   MixedModel<2> connected_;

@@ -11,6 +11,7 @@
 #include "engine/entropy/cell_model.h"
 #include "engine/entropy/mixed_model.h"
 #include "engine/entropy/online_regression.h"
+#include "engine/geometry/grid_pattern.h"
 #include "engine/geometry/ring_shape.h"
 #include "engine/geometry/tangent_density.h"
 #include "engine/mesh/types.h"
@@ -43,6 +44,11 @@ class LatticeCoder {
   Int3 CodeNew(Coder& coder, const Int3& old, const RingShape& ring, LatticePrecision precision,
                const Int3& truth, uint64_t* tangential_meter, uint64_t* normal_meter);
 
+  /// The same where the splits around tell of a grid, at once with all bits: most of them follow
+  /// from what is known.
+  template <class Coder>
+  Int3 CodeOnGrid(Coder& coder, const Int3& old, const GridHint& hint, const Int3& truth);
+
   /// Does the vertex know less than the precision asks for, whatever its normal.
   bool IsCoarser(uint32_t vertex, LatticePrecision precision) const;
   /// Codes the bits of a vertex that are missing at this precision; returns its position.
@@ -67,6 +73,13 @@ class LatticeCoder {
   ScaleTable tangential_scale_;
   ScaleTable normal_scale_;
   MixedModel<2> refine_;
+
+  // Of vertices on grids, by number of splits that tell of it.
+  static constexpr uint32_t kGridSupports = GridHint::kMostSupport + 1;
+  CellModel<3, 2> grid_;
+  std::vector<OnlineRegression<3>> grid_fit_;
+  std::vector<OnlineRegression<2>> grid_follow_;  ///< what misses on earlier axes say of an axis
+  ScaleTable grid_scale_;
 };
 
 }  // namespace folprom

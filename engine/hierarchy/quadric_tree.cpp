@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/geometry/local_frame.h"
+#include "engine/hierarchy/grid_rounds.h"
 #include "engine/hierarchy/merge_tree.h"
 #include "engine/hierarchy/quadric.h"
 
@@ -22,8 +23,18 @@ constexpr double kBoundaryWeight = 4;
 /// A contraction that turns a face over or pinches the surface waits until all others cost this
 /// much more.
 constexpr double kForbiddenFactor = 64;
+/// Where so many of the vertices lie flat and so many on edges, lengths weigh so much less: edges
+/// stay where they are.
+constexpr double kFlatShare = 0.3, kSharpShare = 0.02, kSharpening = 100;
+/// How far from a plane its points come to lie on the lattice, and twice the mean area of faces
+/// whose angles that leaves alone.
+constexpr double kRounding = 1, kLeastMeasured = 400;
+/// Length of the sum of a vertex's face normals over their areas below which an edge goes through.
+constexpr double kSharpNormals = 0.97;
 /// Costs below this are equal: keys are floats, which round them to 0.
 constexpr double kLeastKey = 1e-30;
+/// Of regular grids so many times every second row or column goes first.
+constexpr uint32_t kGridRounds = 6;
 
 double SquaredLength(const Vector3& a) { return Dot(a, a); }
 
@@ -61,11 +72,23 @@ class Contractor {
     version_.assign(own_, 0);
     LinkStars();
     AddFacePlanes();
+    if (HasFacesAndEdges()) length_weight_ = length_weight_ / kSharpening;
     AddBoundaryPlanes();
   }
 
+  /// Before Build: contracts rows and columns of regular grids.
+  void ThinGrids(const std::vector<std::vector<GridStep>>& rounds) {
+    on_grid_ = !rounds.empty();
+    for (const auto& round : rounds) {
+      for (const GridStep& step : round) ThinGrid(step);
+    }
+  }
+
   SetTree Build(std::span<const Int3> positions) {
-    for (uint32_t v = 0; v < own_; ++v) Enqueue(v);
+    building_ = true;
+    for (uint32_t v = 0; v < own_; ++v) {
+      if (merged_into_[v] == v) Enqueue(v);
+    }
     while (!queue_.empty()) {
       Entry entry = queue_.top();
       queue_.pop();
@@ -74,7 +97,9 @@ class Contractor {
       Take(entry.vertex, entry.key);
     }
     JoinRemaining();
-    return tree_.Flatten(positions);
+    SetTree tree = tree_.Flatten(positions);
+    tree.SetOnGrid(on_grid_);
+    return tree;
   }
 
  private:
@@ -135,6 +160,40 @@ class Contractor {
         if (v < own_) quadrics_[v].AddPlane(normal, offset, length / 6);
       }
     }
+  }
+
+  /// Is this an object of flat faces that meet in edges, as machines and buildings are?
+  bool HasFacesAndEdges() {
+    uint32_t flat = 0, sharp = 0;
+    for (uint32_t v = 0; v < own_; ++v) {
+      const Bend bend = BendAt(v);
+      flat += bend == Bend::kFlat ? 1 : 0;
+      sharp += bend == Bend::kSharp ? 1 : 0;
+    }
+
+    return flat > kFlatShare * own_ && sharp > kSharpShare * own_;
+  }
+  /// Flat: all of the vertex's faces lie in one plane but for the rounding to the lattice.
+  enum class Bend { kFlat, kSmooth, kSharp };
+  Bend BendAt(uint32_t v) const {
+    const std::vector<uint32_t>& star = stars_[v];
+    Vector3 normal{0, 0, 0};
+    double area = 0;
+    for (uint32_t f : star) {
+      const Vector3 face_normal = AreaNormal(faces_[f][0], faces_[f][1], faces_[f][2]);
+      for (size_t i = 0; i < 3; ++i) normal[i] = normal[i] + face_normal[i];
+      area = area + std::sqrt(SquaredLength(face_normal));
+    }
+    const double length = std::sqrt(SquaredLength(normal));
+    if (star.empty() || area < kLeastMeasured * static_cast<double>(star.size()))
+      return Bend::kSmooth;
+    if (length < kSharpNormals * area) return Bend::kSharp;
+    for (uint32_t f : star) {
+      for (uint32_t corner : faces_[f]) {
+        if (std::fabs(Dot(Minus(corner, v), normal)) > kRounding * length) return Bend::kSmooth;
+      }
+    }
+    return Bend::kFlat;
   }
 
   void AddBoundaryPlanes() {
@@ -259,6 +318,20 @@ class Contractor {
     Push(v, std::max(candidates_[0].cost, 1e-20) * kForbiddenFactor);
   }
 
+  /// Into a neighbour on the grid; where there is none, or it may not be, v stays.
+  void ThinGrid(const GridStep& step) {
+    const uint32_t v = step.vertex;
+    if (merged_into_[v] != v) return;
+    CollectCandidates(v);
+    for (uint32_t target : step.targets) {
+      for (const Candidate& candidate : candidates_) {
+        if (candidate.target != target || !IsAllowed(v, target)) continue;
+        Contract(v, candidate);
+        return;
+      }
+    }
+  }
+
   bool IsAllowed(uint32_t v, uint32_t target) {
     uint32_t shared = 0;
     for (uint32_t f : stars_[v]) {
@@ -327,7 +400,7 @@ class Contractor {
     star = {};
     forced_[target] = 0;
     tree_.Join(target, v, std::sqrt(squared), own.weight);
-    if (grown.size() <= 4 * kMostCandidates) Enqueue(target);
+    if (building_ && grown.size() <= 4 * kMostCandidates) Enqueue(target);
   }
 
   /// Vertices that no edge joins any more: neighbours on the Morton curve, pair by pair.
@@ -379,6 +452,7 @@ class Contractor {
   std::vector<Candidate> candidates_;
   std::vector<uint32_t> stamp_of_;
   uint32_t stamp_ = 0;
+  bool on_grid_ = false, building_ = false;
   MergeTree tree_;
 };
 
@@ -387,8 +461,9 @@ class Contractor {
 SetTree BuildQuadricTree(std::span<const Int3> positions, std::span<const Face> faces,
                          std::span<const CrossFace> cross_faces, uint32_t subtree,
                          const CodecSettings& settings) {
-  return Contractor(positions, faces, cross_faces, subtree, settings.length_weight)
-      .Build(positions);
+  Contractor contractor(positions, faces, cross_faces, subtree, settings.length_weight);
+  contractor.ThinGrids(PlanGridRounds(positions, faces, kGridRounds));
+  return contractor.Build(positions);
 }
 
 }  // namespace folprom

@@ -22,6 +22,9 @@ class SetTree {
   };
   SetTree(std::vector<Node> nodes, std::vector<uint32_t> order)
       : nodes_(std::move(nodes)), order_(std::move(order)) {}
+  /// The sets come from rows and columns of regular grids.
+  bool on_grid() const { return on_grid_; }
+  void SetOnGrid(bool on_grid) { on_grid_ = on_grid; }
   const Node& node(uint32_t index) const { return nodes_[index]; }
   std::span<const uint32_t> VerticesOf(uint32_t index) const {
     return std::span(order_).subspan(nodes_[index].begin, nodes_[index].end - nodes_[index].begin);
@@ -32,6 +35,7 @@ class SetTree {
  private:
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_;
+  bool on_grid_ = false;
 };
 
 }  // namespace folprom

@@ -34,7 +34,7 @@ inline uint64_t UnZigZag(uint64_t code) { return (code >> 1) ^ (0 - (code & 1));
 class ByteWriter {
  public:
   void U8(uint8_t value) { bytes_.push_back(value); }
-  void U16(uint16_t value) { AppendLittleEndian(value, &bytes_); }
+  void F32(float value) { AppendLittleEndian(std::bit_cast<uint32_t>(value), &bytes_); }
   void U64(uint64_t value) { AppendLittleEndian(value, &bytes_); }
   void F64(double value) { AppendLittleEndian(std::bit_cast<uint64_t>(value), &bytes_); }
   /// Seven bits a byte, lowest first, high bit set on all but the last; 1 .. 10 bytes.
@@ -56,7 +56,7 @@ class ByteReader {
 
   size_t left() const { return bytes_.size() - at_; }
   uint8_t U8() { return *Next(1); }
-  uint16_t U16() { return LoadLittleEndian<uint16_t>(Next(2)); }
+  float F32() { return std::bit_cast<float>(LoadLittleEndian<uint32_t>(Next(4))); }
   uint64_t U64() { return LoadLittleEndian<uint64_t>(Next(8)); }
   double F64() { return std::bit_cast<double>(LoadLittleEndian<uint64_t>(Next(8))); }
   /// Refuses more than 64 bits and needless bytes.

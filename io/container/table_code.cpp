@@ -1,6 +1,9 @@
 #include "io/container/table_code.h"
 
+#include <algorithm>
 #include <bit>
+#include <cfloat>
+#include <cmath>
 
 #include "folprom/result.h"
 #include "io/container/byte_code.h"
@@ -10,14 +13,17 @@ namespace folprom::io {
 namespace {
 
 constexpr uint64_t kMaxCoordinate = (uint64_t{1} << 30) - 1;
-// Fewest bytes of a record: error bound, two varints; varint, box of six, neighbour count.
-constexpr uint64_t kLeastLayerBytes = 4;
+// Fewest bytes of a record: three varints; varint, box of six, neighbour count.
+constexpr uint64_t kLeastLayerBytes = 3;
 constexpr uint64_t kLeastSubtreeBytes = 8;
+
+/// The lower half of an error bound is 0.
+uint64_t UpperHalf(float error_bound) { return std::bit_cast<uint32_t>(error_bound) >> 16; }
 
 void WriteLayers(const FileTable& table, ByteWriter* out) {
   LayerRecord before;
   for (const LayerRecord& layer : table.layers) {
-    out->U16(static_cast<uint16_t>(std::bit_cast<uint32_t>(layer.error_bound) >> 16));
+    out->Varint(ZigZag(UpperHalf(layer.error_bound) - UpperHalf(before.error_bound)));
     const uint64_t more_vertices = layer.vertices - before.vertices;
     out->Varint(more_vertices);
     // A closed surface has twice as many faces as vertices.
@@ -29,7 +35,9 @@ void WriteLayers(const FileTable& table, ByteWriter* out) {
 void ReadLayers(ByteReader* in, FileTable* table) {
   LayerRecord before;
   for (LayerRecord& layer : table->layers) {
-    layer.error_bound = std::bit_cast<float>(uint32_t{in->U16()} << 16);
+    const uint64_t upper = UpperHalf(before.error_bound) + UnZigZag(in->Varint());
+    if (upper > 0xffff) in->Fail("error bound of more bits than a float has");
+    layer.error_bound = std::bit_cast<float>(static_cast<uint32_t>(upper) << 16);
     const uint64_t more_vertices =
         in->VarintUpTo(table->vertices - before.vertices, "growth of a layer's vertices");
     layer.vertices = before.vertices + more_vertices;
@@ -75,6 +83,16 @@ SubtreeRecord ReadSubtree(size_t number, const FileTable& table, ByteReader* in)
   return subtree;
 }
 
+/// Are floats enough for the origin.
+bool HasShortOrigin(const FileTable& table) {
+  const auto same = [](double value) {
+    if (std::fabs(value) > static_cast<double>(FLT_MAX)) return false;
+    const double near = static_cast<double>(static_cast<float>(value));
+    return std::bit_cast<uint64_t>(near) == std::bit_cast<uint64_t>(value);
+  };
+  return std::all_of(table.origin.begin(), table.origin.end(), same);
+}
+
 SizeGrid GridOf(const FileTable& table) {
   return {table.layers.size(), table.subtrees.size(), table.HasSeams()};
 }
@@ -103,7 +121,15 @@ std::vector<uint8_t> EncodeTable(const FileTable& table) {
   out.Varint(table.vertices);
   out.Varint(table.faces);
   out.U8(table.coordinate_type);
-  for (const double origin : table.origin) out.F64(origin);
+  const bool is_short = HasShortOrigin(table);
+  out.U8(is_short ? 1 : 0);
+  for (const double origin : table.origin) {
+    if (is_short) {
+      out.F32(static_cast<float>(origin));
+    } else {
+      out.F64(origin);
+    }
+  }
   out.F64(table.unit);
   for (const int32_t extent : table.extent) out.Varint(static_cast<uint64_t>(extent));
   out.F64(table.tolerance);
@@ -126,7 +152,13 @@ FileTable DecodeTable(std::span<const uint8_t> bytes, std::string_view file, uin
   table.vertices = in.VarintUpTo(kMaxCount, "number of vertices");
   table.faces = in.VarintUpTo(kMaxCount, "number of faces");
   table.coordinate_type = in.U8();
-  for (double& origin : table.origin) origin = in.F64();
+  const uint8_t is_short = in.U8();
+  if (is_short > 1) in.Fail("precision of the lattice's origin neither 0 nor 1");
+  for (double& origin : table.origin) {
+    origin = is_short == 1 ? static_cast<double>(in.F32()) : in.F64();
+  }
+  if (is_short == 0 && HasShortOrigin(table))
+    in.Fail("origin of the lattice longer than it need be");
   table.unit = in.F64();
   for (int32_t& extent : table.extent) {
     extent = static_cast<int32_t>(in.VarintUpTo(kMaxCoordinate, "extent of the lattice"));

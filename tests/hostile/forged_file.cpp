@@ -19,6 +19,7 @@ constexpr int32_t kSide = 1 << 13;
 class CopyingTruth final : public SubtreeTruth {
  public:
   CopyingTruth(TreeTruth& honest, uint32_t copies) : honest_(honest), copies_(copies) {}
+  bool OnGrid() const override { return false; }
   Int3 RootRepresentative() const override { return honest_.RootRepresentative(); }
   uint32_t ChildCount(uint32_t set) const override { return honest_.ChildCount(set); }
   double Distortion(uint32_t set) const override { return honest_.Distortion(set); }

@@ -149,9 +149,9 @@ TEST_P(ForgedTable, WithAScheduleOfOtherPartsEndsWell) {
   for (uint32_t split = 0; split <= honest.schedule.layers(); ++split) {
     Parts parts = small;
     CodecParameters parameters = honest;
-    parameters.schedule =
-        LayerSchedule(honest.extent, honest.settings.layers_per_octave,
-                      honest.settings.rounds_per_layer, split, honest.schedule.layers() - split);
+    parameters.schedule = LayerSchedule(
+        honest.extent, honest.settings.layers_per_octave, honest.settings.rounds_per_layer, split,
+        honest.schedule.layers() - split, honest.schedule.first_steps());
     parts.table.codec = WriteParameters(parameters);
     if (split == honest.schedule.split_layers()) {
       EXPECT_EQ(ErrorOf(PutTogether(parts)), ErrorKind::kUsage);

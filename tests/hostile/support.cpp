@@ -112,13 +112,16 @@ EncodeOptions SmallOptions(uint32_t subtree_vertices) {
   EncodeOptions options;
   options.bits = 9;
   options.codec.subtree_vertices = subtree_vertices;
+  options.codec.least_layer = 20;  // of some 300 vertices, in several layers
   return options;
 }
 
 EncodeOptions LloydOptions(uint32_t subtree_vertices) {
   EncodeOptions options = SmallOptions();
+  const uint32_t least_layer = options.codec.least_layer;
   options.codec = support::LloydSettings();
   options.codec.subtree_vertices = subtree_vertices;
+  options.codec.least_layer = least_layer;
   return options;
 }
 

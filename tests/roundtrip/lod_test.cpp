@@ -173,6 +173,12 @@ TEST_P(LodTest, WithLeavesRefinedAtOnceIsTheImageOfItsSets) {
   ExpectLodsAreImages();
 }
 
+TEST_P(LodTest, OfARangeGridIsTheImageOfItsSets) {
+  Code(RangeGrid(60, 40, 1), 900);
+  EXPECT_GE(replay_->subtrees(), 3u);
+  ExpectLodsAreImages();
+}
+
 TEST_P(LodTest, OfDenseRandomFacesIsTheImageOfItsSets) {
   Code(RandomFaces(60, 2000, 5), 10);
   EXPECT_GE(replay_->subtrees(), 6u);

@@ -115,4 +115,42 @@ Mesh IntegerTerrain(uint64_t columns, uint64_t rows, uint64_t seed) {
   return mesh;
 }
 
+Mesh RangeGrid(uint64_t columns, uint64_t rows, uint64_t seed) {
+  Random random(seed);
+  const auto seen = [&](uint64_t c, uint64_t r) {
+    const auto off = [](uint64_t a, uint64_t b) { return a > b ? a - b : b - a; };
+    const uint64_t x = off(c % 23, 11), y = off(r % 29, 14);
+    return x * x + y * y > 9 && random.Below(200) != 0;
+  };
+  std::vector<bool> present;
+  Mesh grid, mesh;
+  for (uint64_t r = 0; r < rows; ++r) {
+    for (uint64_t c = 0; c < columns; ++c) {
+      const uint64_t depth = 3 * (c * c + r * (rows - r)) + (2 * r > rows ? 40000 : 0);
+      present.push_back(seen(c, r));
+      grid.positions.push_back({static_cast<double>(1000 * c + 100 * r),
+                                static_cast<double>(1000 * r + depth / 8),
+                                static_cast<double>(depth + random.Below(200))});
+    }
+  }
+  AddCells(columns, rows, false, false, &grid);
+  std::vector<uint64_t> number(grid.positions.size(), ~uint64_t{0});
+  for (Triple face : grid.faces) {
+    bool whole = true;
+    for (uint64_t v : face) whole = whole && present[v];
+    // The jump of the depth lies between two rows.
+    const auto far = [&](uint64_t v) { return 2 * (v / columns) > rows; };
+    if (!whole || far(face[0]) != far(face[1]) || far(face[1]) != far(face[2])) continue;
+    for (uint64_t& v : face) {
+      if (number[v] == ~uint64_t{0}) {
+        number[v] = mesh.positions.size();
+        mesh.positions.push_back(grid.positions[v]);
+      }
+      v = number[v];
+    }
+    mesh.faces.push_back(face);
+  }
+  return mesh;
+}
+
 }  // namespace folprom::support

@@ -72,7 +72,9 @@ struct CodecSettings {
 
   // Layers
   uint32_t layers_per_octave = 4;  ///< layers per halving of the spacing; 1 .. 8
-  uint32_t rounds_per_layer = 1;   ///< largest spacing first, in this many steps a layer; 1 .. 16
+  /// Vertices that a layer is expected to add; smaller ones are joined. 0 .. 1000000; 0: none.
+  uint32_t least_layer = 100;
+  uint32_t rounds_per_layer = 1;  ///< largest spacing first, in this many steps a layer; 1 .. 16
 
   // Effort
   /// 1 fastest .. 9 smallest. A record of what WithEffort was asked for; it decides nothing itself.

@@ -11,6 +11,7 @@ namespace {
 class FlatTruth final : public SubtreeTruth {
  public:
   explicit FlatTruth(double distortion) : distortion_(distortion) {}
+  bool OnGrid() const override { return false; }
   Int3 RootRepresentative() const override { return {}; }
   uint32_t ChildCount(uint32_t) const override { return 2; }
   double Distortion(uint32_t) const override { return distortion_; }

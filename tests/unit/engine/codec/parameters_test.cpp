@@ -24,7 +24,7 @@ CodecParameters Some() {
   parameters.settings.distortion_first = 0.25;
   parameters.settings.layers_per_octave = 3;
   parameters.settings = WithEffort(parameters.settings, 8);
-  parameters.schedule = LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4);
+  parameters.schedule = LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4, 5);
   return parameters;
 }
 
@@ -52,6 +52,7 @@ TEST(CodecParameters, ComeBackFromTheirBytes) {
   EXPECT_EQ(read.extent, kExtent);
   EXPECT_EQ(read.schedule.split_layers(), 9u);
   EXPECT_EQ(read.schedule.refine_layers(), 4u);
+  EXPECT_EQ(read.schedule.first_steps(), 5u);
   EXPECT_EQ(WriteParameters(read), WriteParameters(Some()));
 }
 
@@ -113,6 +114,11 @@ TEST(CodecParameters, OutOfRangeAreCorrupt) {
     layers.schedule = LayerSchedule(kExtent, 3, 2, split, refine);
     ExpectCorrupt(WriteParameters(layers));
   }
+  for (uint32_t first_steps : {0u, kMostFirstSteps + 1, 65535u}) {
+    CodecParameters first = Some();
+    first.schedule = LayerSchedule(kExtent, 3, 2, 9, 4, first_steps);
+    ExpectCorrupt(WriteParameters(first));
+  }
 }
 
 TEST(LayerSchedule, FallsFromLayerToLayerToTheLeafBound) {
@@ -139,6 +145,35 @@ TEST(LayerSchedule, FallsFromLayerToLayerToTheLeafBound) {
       }
     }
   }
+}
+
+TEST(LayerSchedule, JoinsLayersOfFewVerticesUntilAStepAddsEnough) {
+  constexpr uint32_t kPerOctave = 4, kLeast = 100;
+  const uint32_t first = FirstStepsFor(kExtent, 100, 20000, kLeast, kPerOctave);
+  ASSERT_GT(first, 1u);
+  const uint32_t split = SplitLayersFor(kExtent, 100, kPerOctave, Offsets::kLattice, first);
+  EXPECT_LT(split, SplitLayersFor(kExtent, 100, kPerOctave, Offsets::kLattice));
+  const LayerSchedule schedule(kExtent, kPerOctave, 1, split, 0, first);
+  // Vertices of a surface that has 20,000 where they are 100 apart.
+  const auto vertices = [&](uint32_t layer) {
+    const double spacing = schedule.SplitSpacing(layer, 0);
+    return 20000 * 100.0 * 100.0 / (spacing * spacing);
+  };
+  EXPECT_GE(vertices(0), kLeast);
+  EXPECT_LT(vertices(0), kLeast * 1.5);
+  for (uint32_t layer = 1; layer + 1 < split; ++layer) {
+    EXPECT_GE(vertices(layer) - vertices(layer - 1), kLeast * 0.99) << layer;
+    // Never more than a step more than that takes.
+    EXPECT_LT(vertices(layer), (vertices(layer - 1) + vertices(0)) * 1.4143) << layer;
+  }
+}
+
+TEST(LayerSchedule, BeginsWithOneStepWhereSizesAreUnknown) {
+  EXPECT_EQ(FirstStepsFor(kExtent, 0, 20000, 100, 4), 1u);
+  EXPECT_EQ(FirstStepsFor(kExtent, 100, 0, 100, 4), 1u);
+  EXPECT_EQ(FirstStepsFor(kExtent, 100, 20000, 0, 4), 1u);
+  EXPECT_EQ(FirstStepsFor(kExtent, 1e9, 1, 1, 8), 1u);
+  EXPECT_LE(FirstStepsFor({kWidest, 0, 0}, 1e-9, 1, 1000000, 8), kMostFirstSteps);
 }
 
 TEST(LayerSchedule, IsNeverLongerThanWhatAFileMayAnnounce) {

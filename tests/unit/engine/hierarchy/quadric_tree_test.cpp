@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "engine/hierarchy/quadric.h"
 
@@ -145,6 +149,68 @@ TEST(QuadricTree, KeepsAPeakLongerThanThePlaneAroundIt) {
   const auto before =
       std::count_if(distortions.begin(), distortions.end(), [&](double d) { return d > at_peak; });
   EXPECT_LT(before, 20);
+}
+
+/// The six sides of a box of n x n cells each, inner vertices a little off the grid.
+Sheet Box(uint32_t n) {
+  constexpr int32_t kCell = 60;
+  std::mt19937_64 random(3);
+  std::map<std::array<uint32_t, 3>, uint32_t> known;
+  Sheet box;
+  const auto vertex = [&](std::array<uint32_t, 3> at) {
+    const auto [place, is_new] = known.try_emplace(at, box.positions.size());
+    if (!is_new) return place->second;
+    std::array<int32_t, 3> p;
+    const auto rims = std::count_if(at.begin(), at.end(), [&](uint32_t c) { return c % n == 0; });
+    for (size_t i = 0; i < 3; ++i) {
+      p[i] = static_cast<int32_t>(at[i]) * kCell;
+      if (rims == 1 && at[i] % n != 0) p[i] += static_cast<int32_t>(random() % 31) - 15;
+    }
+    box.positions.push_back({p[0], p[1], p[2]});
+    return place->second;
+  };
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (uint32_t side : {0u, n}) {
+      const auto at = [&](uint32_t i, uint32_t j) {
+        std::array<uint32_t, 3> place;
+        place[axis] = side;
+        place[(axis + 1) % 3] = side == 0 ? j : i;
+        place[(axis + 2) % 3] = side == 0 ? i : j;
+        return vertex(place);
+      };
+      for (uint32_t i = 0; i < n; ++i) {
+        for (uint32_t j = 0; j < n; ++j) {
+          box.faces.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+          box.faces.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+      }
+    }
+  }
+  return box;
+}
+
+TEST(QuadricTree, KeepsTheEdgesOfABoxWhateverLengthsWeigh) {
+  constexpr uint32_t kCells = 16;
+  const Sheet box = Box(kCells);
+  const SetTree tree = TreeOf(box, 0.01);
+  // The contractions that cost most join what is left of the edges; those within a side cost
+  // nothing.
+  std::vector<std::pair<double, Int3>> splits;
+  for (uint32_t i = 0; i < 2 * box.positions.size() - 1; ++i) {
+    const SetTree::Node& node = tree.node(i);
+    if (node.child_count > 0) {
+      splits.push_back({node.distortion, tree.node(node.first_child + 1).representative});
+    }
+  }
+  std::stable_sort(splits.begin(), splits.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  uint32_t corners = 0;
+  for (size_t i = 0; i < 7; ++i) {
+    const Int3& p = splits[i].second;
+    const auto at_end = [](int32_t c) { return c == 0 || c == 60 * static_cast<int32_t>(kCells); };
+    corners += at_end(p.x) && at_end(p.y) && at_end(p.z) ? 1 : 0;
+  }
+  EXPECT_EQ(corners, 7u) << "all eight corners, one of which is the root";
 }
 
 TEST(QuadricTree, OneVertexIsOneNode) {

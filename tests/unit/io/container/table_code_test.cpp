@@ -36,7 +36,8 @@ ByteWriter BeforeCounts(uint64_t vertices = 0, uint64_t extent = 0) {
   out.Varint(vertices);
   out.Varint(0);
   out.U8(6);
-  for (int i = 0; i < 3; ++i) out.F64(0);
+  out.U8(1);
+  for (int i = 0; i < 3; ++i) out.F32(0);
   out.F64(1);
   for (int i = 0; i < 3; ++i) out.Varint(extent);
   out.F64(0);
@@ -117,7 +118,7 @@ TEST(TableCode, RejectsCountsThatTheBytesLeftCannotHold) {
 
 TEST(TableCode, RejectsSettingsLongerThanTheTable) {
   auto bytes = EncodeTable(ExampleTable());
-  const size_t settings = 2 + 2 + 1 + 32 + 5 + 8;
+  const size_t settings = 2 + 2 + 1 + 1 + 12 + 8 + 5 + 8;
   ASSERT_EQ(bytes[settings], 2);
   bytes[settings] = 0x7f;
   ExpectCorrupt(bytes, "length of the coder's settings is 127");
@@ -207,7 +208,7 @@ TEST(TableCode, RejectsLayersThatContradictTheMesh) {
     ByteWriter out = BeforeCounts(0);
     out.Varint(1);
     out.Varint(0);
-    out.U16(static_cast<uint16_t>(std::bit_cast<uint32_t>(bound) >> 16));
+    out.Varint(ZigZag(std::bit_cast<uint32_t>(bound) >> 16));
     out.Varint(vertices);
     out.Varint(faces_code);
     out.Bytes(std::vector<uint8_t>(1));
@@ -217,11 +218,32 @@ TEST(TableCode, RejectsLayersThatContradictTheMesh) {
   ExpectCorrupt(with_layer(1, 1, 0), "growth of a layer's vertices is 1, at most 0");
   ExpectCorrupt(with_layer(1, 0, 3), "number of a layer's faces");
   ExpectCorrupt(with_layer(-1, 0, 0), "layer 0: error bound");
+  ByteWriter wide = BeforeCounts(0);
+  wide.Varint(1);
+  wide.Varint(0);
+  wide.Varint(ZigZag(0x10000));
+  wide.Bytes(std::vector<uint8_t>(3));
+  ExpectCorrupt(std::move(wide).Take(), "error bound of more bits");
   ExpectCorrupt(with_layer(std::numeric_limits<float>::quiet_NaN(), 0, 0), "error bound");
 }
 
+TEST(TableCode, TakesFourBytesForAnOriginOfFloats) {
+  FileTable table = ExampleTable();
+  table.origin = {1e300, -0.0, 0.5};
+  const size_t as_doubles = EncodeTable(table).size();
+  table.origin = {static_cast<double>(0.1F), -0.0, 3e38};
+  ASSERT_NE(static_cast<double>(static_cast<float>(table.origin[2])), table.origin[2]);
+  EXPECT_EQ(EncodeTable(table).size(), as_doubles);
+  table.origin[2] = static_cast<double>(3e38F);
+  const auto bytes = EncodeTable(table);
+  EXPECT_EQ(bytes.size(), as_doubles - 12);
+  EXPECT_EQ(DecodeTable(bytes, "file", 0), table);
+}
+
 TEST(TableCode, RejectsALatticeThatIsNone) {
-  const auto bytes = EncodeTable(ExampleTable());
+  FileTable table = ExampleTable();
+  table.origin = {0.1, 0.2, 0.3};  // no floats
+  const auto bytes = EncodeTable(table);
   const auto with_double = [&](size_t at, double value) {
     auto changed = bytes;
     ByteWriter number;
@@ -232,13 +254,25 @@ TEST(TableCode, RejectsALatticeThatIsNone) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  ExpectCorrupt(with_double(5, nan), "origin of the lattice");
-  ExpectCorrupt(with_double(13, infinity), "origin of the lattice");
-  ExpectCorrupt(with_double(29, 0), "unit of the lattice");
-  ExpectCorrupt(with_double(29, -1), "unit of the lattice");
-  ExpectCorrupt(with_double(29, infinity), "unit of the lattice");
-  ExpectCorrupt(with_double(42, -1), "tolerance");
-  ExpectCorrupt(with_double(42, nan), "tolerance");
+  ExpectCorrupt(with_double(6, nan), "origin of the lattice");
+  ExpectCorrupt(with_double(14, infinity), "origin of the lattice");
+  ExpectCorrupt(with_double(30, 0), "unit of the lattice");
+  ExpectCorrupt(with_double(30, -1), "unit of the lattice");
+  ExpectCorrupt(with_double(30, infinity), "unit of the lattice");
+  ExpectCorrupt(with_double(43, -1), "tolerance");
+  ExpectCorrupt(with_double(43, nan), "tolerance");
+  auto as_floats = bytes;
+  as_floats[5] = 2;
+  ExpectCorrupt(as_floats, "precision of the lattice's origin");
+  auto infinite = EncodeTable(ExampleTable());
+  infinite[8] = 0x80;
+  infinite[9] = 0x7f;
+  ExpectCorrupt(infinite, "origin of the lattice");
+  ByteWriter needless;
+  needless.Bytes(std::vector<uint8_t>{0, 0, 6, 0});
+  for (int i = 0; i < 4; ++i) needless.F64(1);
+  needless.Bytes(std::vector<uint8_t>(80));
+  ExpectCorrupt(std::move(needless).Take(), "origin of the lattice longer than it need be");
   for (const int other : {0, 5, 8, 100}) {
     auto type = bytes;
     type[4] = static_cast<uint8_t>(other);

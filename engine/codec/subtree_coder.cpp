@@ -196,6 +196,8 @@ LeafSigns SubtreeCoder::SignsOf(uint32_t set, double spacing) {
 template <class Coder>
 bool SubtreeCoder::CodeAsking(Coder& coder, double least_spacing, const SubtreeTruth* truth) {
   if (!(least_spacing > 0)) return false;
+  // K children of the root that are asked at once leave worse LODs, on horse by 8 % at 1 bpv.
+  if (offset_coder_ && positions_.size() == 1) return false;
   const double always = parameters_.settings.distortion_first * shape_.vertices;
   if (static_cast<double>(positions_.size()) < always) return true;
   if (!asking_ || static_cast<double>(positions_.size()) > kMostAsked * always) return false;

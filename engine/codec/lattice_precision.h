@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/codec/subtree_coder.h"
+#include "engine/codec/subtree_truth.h"
 #include "engine/connectivity/complex.h"
 #include "engine/geometry/lattice_coder.h"
 

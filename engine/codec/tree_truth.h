@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "engine/codec/lattice_precision.h"
-#include "engine/codec/subtree_coder.h"
+#include "engine/codec/parameters.h"
+#include "engine/codec/subtree_truth.h"
 #include "engine/connectivity/split_oracle.h"
 #include "engine/hierarchy/lloyd_tree.h"
 #include "engine/partition/partition.h"

@@ -4,31 +4,15 @@
 #include <cmath>
 
 #include "engine/entropy/bit_coder.h"
+#include "engine/geometry/buckets.h"
 
 namespace folprom {
 namespace {
-
-int32_t& At(Int3& p, uint32_t axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
-int32_t At(const Int3& p, uint32_t axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
 
 /// Place of the covariance of axes a and b in RingShape::covariance.
 double Covariance(const RingShape& ring, uint32_t a, uint32_t b) {
   constexpr uint32_t kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
   return ring.covariance[kPlace[a][b]];
-}
-
-/// Number of bounds, ascending, that the value reaches.
-template <size_t K>
-uint32_t Bucket(double value, const std::array<double, K>& bounds) {
-  uint32_t bucket = 0;
-  while (bucket < K && value >= bounds[bucket]) ++bucket;
-  return bucket;
-}
-
-/// log2 in half octaves around 1, 0 .. 15.
-uint32_t OctaveBucket(double value) {
-  double halves = value > 0 ? 2 * 1.44269504 * detail::FastLog(value) : -100;
-  return static_cast<uint32_t>(std::clamp(halves + 6, 0.0, 15.0));
 }
 
 constexpr std::array<double, 8> kSideBounds{-1.2, -0.8, -0.45, -0.15, 0.15, 0.45, 0.8, 1.2};
@@ -49,9 +33,6 @@ std::array<double, 5> Features(const RingShape& ring, uint32_t axis) {
           feature(ring.area_centre), feature(ring.rim_centre)};
 }
 
-/// A logistic density of scale s misses by 1.386 s on average.
-constexpr double kScalePerMiss = 0.7213;
-
 }  // namespace
 
 LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings settings)
@@ -64,11 +45,7 @@ LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings setti
       tangential_fit_(8, OnlineRegression<5>({2, 0, 0, 0, 0})),
       tangential_scale_(2 * 2 * 8 * 6, 1),
       normal_scale_(2 * 16, 1),
-      refine_({2 * 12, 16}),
-      grid_({3 * kGridSupports * 16, 16 * 16, 3 * 6 * 4}),
-      grid_fit_(kGridSupports, OnlineRegression<3>({0.3, 0.5, 0.1})),
-      grid_follow_(3, OnlineRegression<2>({0, 0})),
-      grid_scale_(3 * kGridSupports * 2, 1) {}
+      refine_({2 * 12, 16}) {}
 
 void LatticeCoder::Visit(LearnedStateVisitor& visitor) {
   tangential_.Visit(visitor);
@@ -179,51 +156,6 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
   return result;
 }
 
-template <class Coder>
-Int3 LatticeCoder::CodeOnGrid(Coder& coder, const Int3& old, const GridHint& hint,
-                              const Int3& truth) {
-  Int3 result;
-  const double size = std::max(std::sqrt(Dot(hint.step, hint.step)), 0.5), inverse = 1 / size;
-  const uint32_t level = OctaveBucket(size / 16);
-  OnlineRegression<3>& fit = grid_fit_[hint.support];
-  std::array<double, 2> before{};  // misses on the axes before, in steps
-  for (uint32_t axis = 0; axis < 3; ++axis) {
-    const double origin = static_cast<double>(At(old, axis)) + 0.5;
-    const auto feature = [&](double value) { return std::clamp(value * inverse, -64.0, 64.0); };
-    const std::array<double, 3> features{feature(hint.far[axis]), feature(hint.step[axis]),
-                                         feature(hint.across[axis])};
-    const double expected = fit.Predict(features) * size;
-    OnlineRegression<2>& follow = grid_follow_[axis];
-    const double told = std::clamp(follow.Predict(before), -64.0, 64.0) * size;
-    const std::array<double, 2> means{expected + told, hint.far[axis] / 2 + told};
-    std::array<CellPrediction, 2> predictions;
-    const uint32_t place = (axis * kGridSupports + hint.support) * 2;
-    for (uint32_t p = 0; p < 2; ++p) {
-      const double scale = kScalePerMiss * grid_scale_.Of(place + p) * size;
-      predictions[p] = {origin + means[p], std::max(scale, 0.05)};
-    }
-    constexpr std::array<double, 5> kMissBounds{0.03, 0.07, 0.12, 0.2, 0.4};
-    const double missed = std::max(std::fabs(before[0]), std::fabs(before[1]));
-    const uint32_t doubt = OctaveBucket(8 * std::fabs(means[0] - means[1]) * inverse);
-    const std::array<uint32_t, 3> contexts{
-        (axis * kGridSupports + hint.support) * 16 + level, doubt * 16 + level,
-        (axis * 6 + Bucket(missed, kMissBounds)) * 4 + level / 4};
-    const int32_t value =
-        grid_.Code(coder, contexts, predictions, lo_[axis], hi_[axis], At(truth, axis));
-    At(result, axis) = value;
-    const double place_now = static_cast<double>(At(result, axis)) + 0.5 - origin;
-    for (uint32_t p = 0; p < 2; ++p) {
-      grid_scale_.Learn(place + p, std::fabs(place_now - means[p]) * inverse);
-    }
-    const double missed_now = std::clamp((place_now - expected) * inverse, -1.0, 1.0);
-    if (axis > 0) follow.Learn(before, missed_now);
-    if (axis < 2) before[axis] = missed_now;
-    fit.Learn(features, std::clamp(place_now * inverse, -64.0, 64.0));
-  }
-  shifts_.push_back({0, 0, 0});
-  return result;
-}
-
 bool LatticeCoder::IsCoarser(uint32_t vertex, LatticePrecision precision) const {
   uint32_t least = std::min(precision.tangential, precision.normal);
   const Shifts& shifts = shifts_[vertex];
@@ -265,8 +197,6 @@ Int3 LatticeCoder::Refine(Coder& coder, uint32_t vertex, const Int3& known, cons
 #define FOLPROM_INSTANTIATE(Coder)                                                                 \
   template Int3 LatticeCoder::CodeNew<Coder>(Coder&, const Int3&, const RingShape&,                \
                                              LatticePrecision, const Int3&, uint64_t*, uint64_t*); \
-  template Int3 LatticeCoder::CodeOnGrid<Coder>(Coder&, const Int3&, const GridHint&,              \
-                                                const Int3&);                                      \
   template Int3 LatticeCoder::Refine<Coder>(Coder&, uint32_t, const Int3&, const RingShape&,       \
                                             LatticePrecision, const Int3&);
 FOLPROM_INSTANTIATE(BitEncoder)

@@ -11,7 +11,6 @@
 #include "engine/entropy/cell_model.h"
 #include "engine/entropy/mixed_model.h"
 #include "engine/entropy/online_regression.h"
-#include "engine/geometry/grid_pattern.h"
 #include "engine/geometry/ring_shape.h"
 #include "engine/geometry/tangent_density.h"
 #include "engine/mesh/types.h"
@@ -26,8 +25,8 @@ struct LatticePrecision {
 
 /// How much work goes into predicting.
 struct LatticeSettings {
-  uint32_t density_step = 2;  ///< of the TangentDensity; 0: none
-  uint32_t mixers = 1;        ///< of the MixedModel of cells
+  uint32_t density_step;  ///< of the TangentDensity; 0: none
+  uint32_t mixers;        ///< of the MixedModel of cells
 };
 
 class LatticeCoder {
@@ -35,19 +34,14 @@ class LatticeCoder {
   /// Coordinates lie in [lo, hi].
   LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings settings);
 
-  /// The first vertex, known exactly.
-  void AddRoot() { shifts_.push_back({0, 0, 0}); }
+  /// A vertex that is known exactly. It gets the next number.
+  void AddExact() { shifts_.push_back({0, 0, 0}); }
 
   /// Codes the vertex that a split of `old` adds and returns what is known of its position. It gets
   /// the next number. truth: encoder only. The meters take the cost along and across the surface.
   template <class Coder>
   Int3 CodeNew(Coder& coder, const Int3& old, const RingShape& ring, LatticePrecision precision,
                const Int3& truth, uint64_t* tangential_meter, uint64_t* normal_meter);
-
-  /// The same where the splits around tell of a grid, at once with all bits: most of them follow
-  /// from what is known.
-  template <class Coder>
-  Int3 CodeOnGrid(Coder& coder, const Int3& old, const GridHint& hint, const Int3& truth);
 
   /// Does the vertex know less than the precision asks for, whatever its normal.
   bool IsCoarser(uint32_t vertex, LatticePrecision precision) const;
@@ -73,13 +67,6 @@ class LatticeCoder {
   ScaleTable tangential_scale_;
   ScaleTable normal_scale_;
   MixedModel<2> refine_;
-
-  // Of vertices on grids, by number of splits that tell of it.
-  static constexpr uint32_t kGridSupports = GridHint::kMostSupport + 1;
-  CellModel<3, 2> grid_;
-  std::vector<OnlineRegression<3>> grid_fit_;
-  std::vector<OnlineRegression<2>> grid_follow_;  ///< what misses on earlier axes say of an axis
-  ScaleTable grid_scale_;
 };
 
 }  // namespace folprom

@@ -21,7 +21,7 @@ struct Split {
 struct Case {
   Int3 lo, hi;
   std::vector<Split> splits;
-  LatticeSettings settings = {};
+  LatticeSettings settings = {2, 1};
 };
 
 Case RandomCase(uint64_t seed, const Int3& lo, const Int3& hi, uint32_t most_shift) {
@@ -62,7 +62,7 @@ Case RandomCase(uint64_t seed, const Int3& lo, const Int3& hi, uint32_t most_shi
 template <class Coder>
 std::vector<Int3> CodeAll(Coder& coder, const Case& input, uint64_t* cost) {
   LatticeCoder lattice(input.lo, input.hi, input.settings);
-  lattice.AddRoot();
+  lattice.AddExact();
   std::vector<Int3> known{input.lo}, all;
   for (const Split& split : input.splits) {
     const Int3 truth = Coder::kEncoding ? split.truth : Int3{};

@@ -1,0 +1,21 @@
+#include "engine/codec/cost_meters.h"
+
+namespace folprom {
+
+CostMeters& CostMeters::operator+=(const CostMeters& other) {
+  split += other.split;
+  root += other.root;
+  refinement += other.refinement;
+  exceptions += other.exceptions;
+  seams += other.seams;
+  rests += other.rests;
+  offsets.theta += other.offsets.theta;
+  offsets.rho += other.offsets.rho;
+  offsets.z += other.offsets.z;
+  connectivity.connected += other.connectivity.connected;
+  connectivity.pivots += other.connectivity.pivots;
+  connectivity.sides += other.connectivity.sides;
+  return *this;
+}
+
+}  // namespace folprom

@@ -1,0 +1,42 @@
+// The current LOD of a subtree: surface, positions, and what is known of each vertex set.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/connectivity/complex.h"
+#include "engine/geometry/ring_shape.h"
+#include "engine/mesh/types.h"
+
+namespace folprom {
+
+/// A vertex set, named by the LOD vertex that stands for it.
+struct SetRecord {
+  static constexpr float kUnmeasured = 3e38f;
+  float scale = 0;  ///< spacing to assume without neighbours, lattice units
+  /// When last measured, never far below the present one; of a leaf, when it was found to be one.
+  float spacing = kUnmeasured;
+  uint32_t border = kNone;  ///< number of the border set
+  uint32_t asked = 0;       ///< the last round in which it was not due, 0: none since its split
+  bool is_leaf = false;     ///< a single vertex
+};
+
+/// The three lists go by the number of the LOD vertex.
+class SubtreeLod {
+ public:
+  Complex complex;
+  std::vector<Int3> positions;
+  std::vector<SetRecord> sets;
+
+  size_t size() const { return positions.size(); }
+  /// Mean distance to the neighbours, without any the set's scale; lattice units.
+  double Spacing(uint32_t set) const;
+  /// Positions of the neighbours, valid until the next call.
+  const std::vector<Int3>& Ring(uint32_t set);
+  RingShape ShapeAround(uint32_t set);
+
+ private:
+  std::vector<Int3> ring_;
+};
+
+}  // namespace folprom

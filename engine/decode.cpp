@@ -88,7 +88,7 @@ class DecodeJob {
     const io::FileTable& table = file_.table();
     DecodeReport report;
     report.layers = selection_.layers;
-    report.layers_total = table.layers.size();
+    report.layers_total = file_.container().layers_total();
     report.complete = report.layers == report.layers_total && !options_.use_region;
     report.bytes_read = BytesNeeded(file_.container(), selection_);
     report.error_bound = static_cast<double>(table.layers[selection_.layers - 1].error_bound);

@@ -185,7 +185,12 @@ std::vector<uint32_t> NeededSubtrees(const io::FileTable& table,
 
 uint64_t BytesNeeded(const io::ContainerReader& container, const DecodeSelection& selection) {
   const io::FileTable& table = container.table();
-  uint64_t bytes = container.table_bytes();
+  // All but the layers themselves: header, and the tables up to the last one.
+  uint64_t bytes =
+      selection.layers == 0 ? container.header_bytes() : container.LayerEnd(selection.layers - 1);
+  for (size_t layer = 0; layer < selection.layers; ++layer) {
+    bytes -= container.LayerEnd(layer) - container.LayerBegin(layer);
+  }
   auto add = [&](const std::vector<uint32_t>& subtrees, io::SegmentPart part) {
     for (uint32_t s : subtrees) {
       for (size_t layer = 0; layer < selection.layers; ++layer) {

@@ -27,7 +27,7 @@ class FolpFile {
  private:
   CodecParameters Parameters(const std::string& path) const {
     try {
-      return ParametersOf(table());
+      return ParametersOf(table(), container_.layers_total());
     } catch (const Failure& failure) {
       throw Failure(failure.error().kind, path + ": " + failure.error().message);
     }

@@ -10,12 +10,10 @@ namespace {
 
 void DescribeLayers(const FolpFile& file, FileInfo* info) {
   const io::FileTable& table = file.table();
-  uint64_t before = file.container().table_bytes();
   for (size_t k = 0; k < table.layers.size(); ++k) {
     LayerInfo layer;
     layer.end_byte = file.container().LayerEnd(k);
-    layer.bytes = layer.end_byte - before;
-    before = layer.end_byte;
+    layer.bytes = layer.end_byte - file.container().LayerBegin(k);
     layer.vertices = table.layers[k].vertices;
     layer.faces = table.layers[k].faces;
     layer.error_bound = static_cast<double>(table.layers[k].error_bound);
@@ -27,7 +25,9 @@ void DescribeLayers(const FolpFile& file, FileInfo* info) {
 }
 
 void DescribeBits(const FolpFile& file, FileInfo* info) {
+  if (!file.container().has_all_tables()) return;
   const io::FileTable& table = file.table();
+  info->has_bits = true;
   uint64_t kind_bits = 0, segment_bytes = 0;
   for (uint64_t bits : table.kind_bits) kind_bits += bits;
   for (uint64_t bytes : table.segment_bytes) segment_bytes += bytes;
@@ -63,8 +63,9 @@ Result<FileInfo> ReadInfo(const std::string& input) {
     info.bytes = file.container().file_bytes();
     info.bytes_present = file.bytes_present();
     info.layers_present = file.container().complete_layers();
+    info.layers_total = file.container().layers_total();
     info.subtrees = table.subtrees.size();
-    info.tolerance = table.tolerance;
+    if (file.container().has_all_tables()) info.tolerance = table.tolerance;
     Lattice lattice = file.lattice();
     if (lattice.exact) {
       const ExactStep& step = lattice.exact->step;

@@ -12,7 +12,7 @@ namespace folprom {
 
 struct MemoryDecoder::Impl {
   explicit Impl(io::ContainerReader opened)
-      : container(std::move(opened)), parameters(ParametersOf(container.table())) {
+      : container(std::move(opened)), parameters(ParametersOf(container.table(), container.layers_total())) {
     const io::FileTable& table = container.table();
     std::vector<bool> border = SubtreesWithBorder(table);
     for (size_t s = 0; s < table.subtrees.size(); ++s) {
@@ -65,7 +65,7 @@ Result<MemoryDecoder> MemoryDecoder::Open(std::span<const uint8_t> file) {
   }
 }
 
-size_t MemoryDecoder::layer_count() const { return impl_->container.table().layers.size(); }
+size_t MemoryDecoder::layer_count() const { return impl_->container.layers_total(); }
 size_t MemoryDecoder::complete_layers() const { return impl_->container.complete_layers(); }
 size_t MemoryDecoder::decoded_layers() const { return impl_->decoded; }
 

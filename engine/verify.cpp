@@ -271,7 +271,7 @@ Result<VerifyReport> VerifyFile(const std::string& input, const std::string& ori
     report.faces = file.table().faces;
     report.tolerance = file.table().tolerance;
     report.against = !original.empty();
-    size_t present = file.container().complete_layers(), all = file.table().layers.size();
+    size_t present = file.container().complete_layers(), all = file.container().layers_total();
     if (present < all) {
       report.reason = "the file is cut: " + std::to_string(present) + " of " + std::to_string(all) +
                       " layers are whole";

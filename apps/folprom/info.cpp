@@ -80,7 +80,9 @@ Json InfoJson(const FileInfo& info) {
                       {"bits_per_vertex", layer.bits_per_vertex}});
   }
   Json kinds = Json::object();
-  for (const Kind& kind : kKinds) kinds[kind.name] = info.*kind.bits_per_vertex;
+  for (const Kind& kind : kKinds) {
+    kinds[kind.name] = info.has_bits ? Json(info.*kind.bits_per_vertex) : Json();
+  }
   return {{"format_version", info.format_version},
           {"vertices", info.vertices},
           {"faces", info.faces},
@@ -88,7 +90,7 @@ Json InfoJson(const FileInfo& info) {
           {"bytes_present", info.bytes_present},
           {"bits_per_vertex", BitsPerVertex(info)},
           {"subtrees", info.subtrees},
-          {"tolerance", info.tolerance},
+          {"tolerance", info.tolerance ? Json(*info.tolerance) : Json()},
           {"exact", ExactJson(info)},
           {"box_lo", info.box_lo},
           {"box_hi", info.box_hi},
@@ -99,6 +101,7 @@ Json InfoJson(const FileInfo& info) {
           {"overhead", info.overhead},
           {"codec", CodecJson(info.codec)},
           {"layers_present", info.layers_present},
+          {"layers_total", info.layers_total},
           {"layers", layers}};
 }
 
@@ -107,9 +110,9 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
   auto out = std::back_inserter(text);
   fmt::format_to(out, "{}: format {}, {} vertices, {} faces\n", path, info.format_version,
                  Grouped(info.vertices), Grouped(info.faces));
-  fmt::format_to(out,
-                 "{} bytes, {:.2f} bits per vertex, {} subtrees, tolerance {:.6g}, effort {}\n",
-                 Grouped(info.bytes), BitsPerVertex(info), Grouped(info.subtrees), info.tolerance,
+  fmt::format_to(out, "{} bytes, {:.2f} bits per vertex, {} subtrees, tolerance {}, effort {}\n",
+                 Grouped(info.bytes), BitsPerVertex(info), Grouped(info.subtrees),
+                 info.tolerance ? fmt::format("{:.6g}", *info.tolerance) : "unknown",
                  info.codec.effort);
   if (info.exact) {
     fmt::format_to(out, "exact: every bit of a {}, on a lattice of {}^{} of {:.2f} bits{}\n",
@@ -117,17 +120,20 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
                    -info.exact->exponent, info.exact->bits,
                    info.exact->has_rests ? " and rests" : "");
   }
-  if (info.bytes_present < info.bytes) {
+  if (info.layers_present < info.layers_total) {
     fmt::format_to(out, "cut: {} bytes and {} of {} layers are here\n", Grouped(info.bytes_present),
-                   info.layers_present, info.layers.size());
+                   info.layers_present, info.layers_total);
   }
   fmt::format_to(out, "box {:.6g} {:.6g} {:.6g} .. {:.6g} {:.6g} {:.6g}\n", info.box_lo[0],
                  info.box_lo[1], info.box_lo[2], info.box_hi[0], info.box_hi[1], info.box_hi[2]);
-  fmt::format_to(out, "bits per vertex:");
-  for (const Kind& kind : kKinds) {
-    fmt::format_to(out, " {} {:.3f}", kind.name, info.*kind.bits_per_vertex);
+  if (info.has_bits) {
+    fmt::format_to(out, "bits per vertex:");
+    for (const Kind& kind : kKinds) {
+      fmt::format_to(out, " {} {:.3f}", kind.name, info.*kind.bits_per_vertex);
+    }
+    fmt::format_to(out, "; tables, checksums, flushes {:.2f} % of the file\n", 100 * info.overhead);
   }
-  fmt::format_to(out, "; tables, checksums, flushes {:.2f} % of the file\n\n", 100 * info.overhead);
+  fmt::format_to(out, "\n");
   fmt::format_to(out, "{:>5} {:>15} {:>15} {:>14} {:>14} {:>13} {:>8}\n", "layer", "bytes",
                  "end byte", "vertices", "faces", "error bound", "bits/v");
   size_t number = 0;

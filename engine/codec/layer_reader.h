@@ -13,8 +13,9 @@
 
 namespace folprom {
 
-/// Settings and schedule of the file. Throws Failure kCorrupt where they contradict its table.
-CodecParameters ParametersOf(const io::FileTable& table);
+/// Settings and schedule of a file of so many layers. Throws Failure kCorrupt where they contradict
+/// its table.
+CodecParameters ParametersOf(const io::FileTable& table, size_t layers_total);
 /// The lattice of the file; `parameters` are those of its table.
 Lattice LatticeOf(const io::FileTable& table, const CodecParameters& parameters);
 /// Does the subtree share a face with any other.

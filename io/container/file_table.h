@@ -57,7 +57,8 @@ struct SubtreeRecord {
 /// A segment is named by (layer, subtree, part).
 enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
 
-/// Everything in the table. Coded compactly; see FORMAT.md.
+/// Everything in the tables of a file; of a cut one, in those that are there. Coded compactly; see
+/// FORMAT.md.
 struct FileTable {
   uint64_t vertices = 0;
   uint64_t faces = 0;
@@ -65,8 +66,9 @@ struct FileTable {
   std::array<double, 3> origin{};   ///< lattice
   double unit = 1;                  ///< lattice
   std::array<int32_t, 3> extent{};  ///< lattice, 0 .. 2^30 - 1
-  double tolerance = 0;             ///< model units, per axis
   std::vector<uint8_t> codec;       ///< settings of the coder, meaning known to the engine only
+  // In the last table.
+  double tolerance = 0;  ///< model units, per axis
   MeshDigest digest;
   std::array<uint64_t, kBitKinds> kind_bits{};  ///< bits spent per kind, whole file, rounded
   std::vector<LayerRecord> layers;

@@ -6,8 +6,7 @@
 #include "folprom/result.h"
 #include "io/container/byte_code.h"
 #include "io/container/checksum.h"
-#include "io/container/layout.h"
-#include "io/container/table_code.h"
+#include "io/container/file_table.h"
 
 namespace folprom::io {
 namespace {
@@ -32,8 +31,7 @@ void CheckVersion(std::span<const uint8_t> bytes, std::string_view file) {
 
 }  // namespace
 
-std::vector<uint8_t> EncodeHeader(const FileTable& table) {
-  const std::vector<uint8_t> table_bytes = EncodeTable(table);
+std::vector<uint8_t> EncodeHeader(std::span<const uint8_t> table_bytes) {
   if (table_bytes.size() > UINT32_MAX) {
     throw Failure(ErrorKind::kLimit, "the table of the file takes 4 GiB or more");
   }

@@ -1,4 +1,4 @@
-// The header of a .folp file: magic, version, table and the checksum over them.
+// The header of a .folp file: magic, version, first table and the checksum over them.
 #pragma once
 
 #include <array>
@@ -7,8 +7,6 @@
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include "io/container/file_table.h"
 
 namespace folprom::io {
 
@@ -19,11 +17,11 @@ inline constexpr size_t kLengthBytes = 4;
 inline constexpr size_t kHeaderChecksumBytes = 8;
 inline constexpr size_t kTableBegin = kMagic.size() + kVersionBytes + kLengthBytes;
 
-/// All bytes before the first segment. Failure kInternal: the table has a fault; kLimit: it takes
-/// 4 GiB or more.
-std::vector<uint8_t> EncodeHeader(const FileTable& table);
+/// All bytes before the first segment, around the bytes of the first table. Failure kLimit: those
+/// are 4 GiB or more.
+std::vector<uint8_t> EncodeHeader(std::span<const uint8_t> table_bytes);
 
-/// The bytes of the table inside `file_bytes`, after magic, version, length and checksum were
+/// The bytes of the first table inside `file_bytes`, after magic, version, length and checksum were
 /// checked. Failure kInput: another kind of file or a newer version; kCorrupt: cut or damaged.
 std::span<const uint8_t> TableBytes(std::span<const uint8_t> file_bytes, std::string_view file);
 

@@ -2,29 +2,32 @@
 
 namespace folprom::io {
 
-FileLayout LayoutOf(const FileTable& table, uint64_t begin) {
-  FileLayout layout;
-  layout.segment_begin.reserve(table.segment_bytes.size());
-  layout.layer_end.reserve(table.layers.size());
-  uint64_t at = begin, group_begin = begin;
-  const auto close_group = [&] {
-    layout.groups.push_back({group_begin, at});
-    at += kGroupChecksumBytes;
-    group_begin = at;
-  };
+void FileLayout::AddTable(uint64_t bytes) {
+  end_ += bytes + kGroupChecksumBytes;
+  table_bytes_ += bytes + kGroupChecksumBytes;
+}
+
+void FileLayout::CloseGroup(uint64_t begin) {
+  groups_.push_back({begin, end_});
+  end_ += kGroupChecksumBytes;
+}
+
+void FileLayout::AddLayers(const FileTable& table) {
+  segment_begin_.reserve(table.segment_bytes.size());
   const size_t segments_per_layer = table.subtrees.size() * 2;
-  for (size_t layer = 0; layer < table.layers.size(); ++layer) {
+  for (size_t layer = layer_end_.size(); layer < table.layers.size(); ++layer) {
+    layer_begin_.push_back(end_);
+    uint64_t group_begin = end_;
     for (size_t i = 0; i < segments_per_layer; ++i) {
-      layout.segment_begin.push_back(at);
-      at += table.segment_bytes[layer * segments_per_layer + i];
-      if (at - group_begin >= kGroupBytes) close_group();
+      segment_begin_.push_back(end_);
+      end_ += table.segment_bytes[layer * segments_per_layer + i];
+      if (end_ - group_begin < kGroupBytes) continue;
+      CloseGroup(group_begin);
+      group_begin = end_;
     }
-    if (at > group_begin) close_group();
-    layout.layer_end.push_back(at);
+    if (end_ > group_begin) CloseGroup(group_begin);
+    layer_end_.push_back(end_);
   }
-  layout.checksum_bytes = layout.groups.size() * kGroupChecksumBytes;
-  layout.file_bytes = at;
-  return layout;
 }
 
 }  // namespace folprom::io

@@ -10,6 +10,7 @@ namespace folprom::io {
 
 /// A group of segments is closed as soon as it has this many bytes.
 inline constexpr uint64_t kGroupBytes = 512;
+/// Of a group, and of a table between layers.
 inline constexpr uint64_t kGroupChecksumBytes = 4;
 
 /// Consecutive bytes of segments of one layer; their checksum stands at `end`. Never empty.
@@ -18,17 +19,39 @@ struct ChecksumGroup {
   uint64_t end = 0;
 };
 
-/// Byte positions in the file.
-struct FileLayout {
-  std::vector<uint64_t> segment_begin;  ///< index FileTable::SegmentIndex
-  std::vector<ChecksumGroup> groups;    ///< in the order of the file
-  std::vector<uint64_t> layer_end;      ///< after the checksum of the layer's last group
-  uint64_t checksum_bytes = 0;          ///< of all groups
-  uint64_t file_bytes = 0;
-};
+/// Byte positions in the file, appended to as its tables become known. Takes as much memory for the
+/// places of the segments as the table for their sizes.
+class FileLayout {
+ public:
+  /// Behind the header.
+  explicit FileLayout(uint64_t header_bytes = 0) : end_(header_bytes), table_bytes_(header_bytes) {}
 
-/// Takes as much memory for the places of the segments as the table for their sizes. `begin`: byte
-/// after the header. The table has no fault, so no position overflows.
-FileLayout LayoutOf(const FileTable& table, uint64_t begin);
+  /// A table between layers.
+  void AddTable(uint64_t bytes);
+  /// The layers that the table has and the layout not yet. The table has no fault, so no position
+  /// overflows.
+  void AddLayers(const FileTable& table);
+
+  /// Index FileTable::SegmentIndex.
+  const std::vector<uint64_t>& segment_begin() const { return segment_begin_; }
+  /// In the order of the file.
+  const std::vector<ChecksumGroup>& groups() const { return groups_; }
+  /// Before the first group of each layer, and after the checksum of its last one.
+  const std::vector<uint64_t>& layer_begin() const { return layer_begin_; }
+  const std::vector<uint64_t>& layer_end() const { return layer_end_; }
+  uint64_t checksum_bytes() const { return groups_.size() * kGroupChecksumBytes; }
+  /// Header, and tables with their checksums.
+  uint64_t table_bytes() const { return table_bytes_; }
+  /// After all that was appended.
+  uint64_t end() const { return end_; }
+
+ private:
+  void CloseGroup(uint64_t begin);
+
+  std::vector<uint64_t> segment_begin_;
+  std::vector<ChecksumGroup> groups_;
+  std::vector<uint64_t> layer_begin_, layer_end_;
+  uint64_t end_, table_bytes_;
+};
 
 }  // namespace folprom::io

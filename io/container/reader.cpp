@@ -25,19 +25,41 @@ Result<ContainerReader> ContainerReader::Open(std::span<const uint8_t> bytes, st
 void ContainerReader::Load(std::span<const uint8_t> bytes, std::string name) {
   bytes_ = bytes;
   name_ = std::move(name);
-  const auto coded = TableBytes(bytes, name_);
-  table_ = DecodeTable(coded, name_, kTableBegin);
-  table_bytes_ = kTableBegin + coded.size() + kHeaderChecksumBytes;
-  layout_ = LayoutOf(table_, table_bytes_);
-  if (bytes.size() > file_bytes()) {
+  LoadTables();
+  if (has_all_tables() && bytes.size() > file_bytes()) {
     throw Failure(ErrorKind::kCorrupt, name_ + ": " + std::to_string(bytes.size() - file_bytes()) +
                                            " bytes after the end at byte " +
                                            std::to_string(file_bytes()));
   }
-  const auto& ends = layout_.layer_end;
+  const auto& ends = layout_.layer_end();
   complete_layers_ = static_cast<size_t>(
       std::upper_bound(ends.begin(), ends.end(), uint64_t{bytes.size()}) - ends.begin());
-  verified_.reset(new std::atomic<bool>[layout_.groups.size()]());
+  verified_.reset(new std::atomic<bool>[layout_.groups().size()]());
+}
+
+void ContainerReader::LoadTables() {
+  TableDecoder decoder(name_);
+  const auto first = TableBytes(bytes_, name_);
+  header_bytes_ = kTableBegin + first.size() + kHeaderChecksumBytes;
+  decoder.Decode(first, kTableBegin);
+  layout_ = FileLayout(header_bytes_);
+  layout_.AddLayers(decoder.table());
+  while (decoder.next_bytes() > 0) {
+    const uint64_t size = decoder.next_bytes(), begin = layout_.end();
+    if (size > bytes_.size() || begin + size + kGroupChecksumBytes > bytes_.size()) break;
+    const auto table = bytes_.subspan(begin, size);
+    if (static_cast<uint32_t>(XxHash64(table)) !=
+        LoadLittleEndian<uint32_t>(bytes_.data() + begin + size)) {
+      throw Failure(ErrorKind::kCorrupt, name_ + ": checksum of the table (bytes " +
+                                             std::to_string(begin) + " to " +
+                                             std::to_string(begin + size) + ") differs");
+    }
+    decoder.Decode(table, begin);
+    layout_.AddTable(size);
+    layout_.AddLayers(decoder.table());
+  }
+  table_ = decoder.table();
+  layers_total_ = decoder.layers_total();
 }
 
 std::string ContainerReader::PlaceOf(size_t layer, size_t subtree, SegmentPart part) const {
@@ -46,7 +68,7 @@ std::string ContainerReader::PlaceOf(size_t layer, size_t subtree, SegmentPart p
 }
 
 size_t ContainerReader::GroupOf(uint64_t position) const {
-  const auto& groups = layout_.groups;
+  const auto& groups = layout_.groups();
   const auto after = std::upper_bound(
       groups.begin(), groups.end(), position,
       [](uint64_t wanted, const ChecksumGroup& group) { return wanted < group.begin; });
@@ -55,7 +77,7 @@ size_t ContainerReader::GroupOf(uint64_t position) const {
 
 bool ContainerReader::Intact(size_t group) const {
   if (verified_[group].load(std::memory_order_relaxed)) return true;
-  const auto [begin, end] = layout_.groups[group];
+  const auto [begin, end] = layout_.groups()[group];
   if (static_cast<uint32_t>(XxHash64(bytes_.subspan(begin, end - begin))) !=
       LoadLittleEndian<uint32_t>(bytes_.data() + end)) {
     return false;
@@ -66,15 +88,19 @@ bool ContainerReader::Intact(size_t group) const {
 
 Result<std::span<const uint8_t>> ContainerReader::Segment(size_t layer, size_t subtree,
                                                           SegmentPart part) const {
-  if (layer >= table_.layers.size() || subtree >= table_.subtrees.size()) {
+  if (layer >= layers_total_ || subtree >= table_.subtrees.size()) {
     return Error{ErrorKind::kInternal, PlaceOf(layer, subtree, part) + "does not exist"};
   }
+  if (layer >= table_.layers.size()) {
+    return Error{ErrorKind::kCorrupt, PlaceOf(layer, subtree, part) + "the file is cut at byte " +
+                                          std::to_string(bytes_.size()) + ", before its table"};
+  }
   const size_t index = table_.SegmentIndex(layer, subtree, part);
-  const uint64_t begin = layout_.segment_begin[index];
+  const uint64_t begin = layout_.segment_begin()[index];
   const uint64_t size = table_.segment_bytes[index];
   if (size == 0) return std::span<const uint8_t>();
   const size_t group = GroupOf(begin);
-  const auto [group_begin, group_end] = layout_.groups[group];
+  const auto [group_begin, group_end] = layout_.groups()[group];
   if (group_end + kGroupChecksumBytes > bytes_.size()) {
     return Error{ErrorKind::kCorrupt, PlaceOf(layer, subtree, part) + "the file is cut at byte " +
                                           std::to_string(bytes_.size()) + " of " +

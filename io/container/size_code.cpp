@@ -82,9 +82,10 @@ uint64_t ReadCode(int k, BitReader* bits) {
 void WriteSizes(std::span<const uint64_t> sizes, const SizeGrid& grid, ByteWriter* out) {
   BitWriter bits(out);
   std::vector<uint64_t> codes;
+  const size_t known = grid.subtrees == 0 ? 0 : sizes.size() / (grid.subtrees * 2) - grid.layers;
   for (size_t row = 0; row < grid.parts() * grid.layers; ++row) {
     codes.clear();
-    ForRow(sizes, row / grid.parts(), row % grid.parts(), grid.subtrees,
+    ForRow(sizes, known + row / grid.parts(), row % grid.parts(), grid.subtrees,
            [&](uint64_t prediction, uint64_t size) { codes.push_back(ZigZag(size - prediction)); });
     const int k = BestOrder(codes);
     bits.Bits(static_cast<uint64_t>(k), kRowParameterBits);
@@ -93,12 +94,13 @@ void WriteSizes(std::span<const uint64_t> sizes, const SizeGrid& grid, ByteWrite
   bits.Finish();
 }
 
-std::vector<uint64_t> ReadSizes(const SizeGrid& grid, ByteReader* in) {
-  std::vector<uint64_t> sizes(grid.layers * grid.subtrees * 2);
+void ReadSizes(const SizeGrid& grid, ByteReader* in, std::vector<uint64_t>* sizes) {
+  const size_t known = grid.subtrees == 0 ? 0 : sizes->size() / (grid.subtrees * 2);
+  sizes->resize((known + grid.layers) * grid.subtrees * 2);
   BitReader bits(in);
   for (size_t row = 0; row < grid.parts() * grid.layers; ++row) {
     const int k = static_cast<int>(bits.Bits(kRowParameterBits));
-    ForRow(sizes, row / grid.parts(), row % grid.parts(), grid.subtrees,
+    ForRow(*sizes, known + row / grid.parts(), row % grid.parts(), grid.subtrees,
            [&](uint64_t prediction, uint64_t& size) {
              const uint64_t code = ReadCode(k, &bits);
              if (code > kLargestCode) in->Fail("segment size beyond 32 bits");
@@ -107,7 +109,6 @@ std::vector<uint64_t> ReadSizes(const SizeGrid& grid, ByteReader* in) {
            });
   }
   bits.Finish();
-  return sizes;
 }
 
 }  // namespace folprom::io

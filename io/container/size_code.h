@@ -14,7 +14,7 @@ inline constexpr int kRowParameterBits = 5;
 
 /// What the sizes of a table are sizes of. Layers below 2^12, subtrees below 2^32.
 struct SizeGrid {
-  uint64_t layers = 0;
+  uint64_t layers = 0;  ///< behind those whose sizes are known
   uint64_t subtrees = 0;
   bool seams = false;  ///< has any subtree a lower neighbour; if not, seam segments have no bytes
 
@@ -23,10 +23,12 @@ struct SizeGrid {
   uint64_t LeastBits() const { return parts() * layers * (subtrees + kRowParameterBits); }
 };
 
-/// Appends sizes[(layer * subtrees + subtree) * 2 + part], each below 2^32, filled to a whole byte.
+/// Appends the last grid.layers of sizes[(layer * subtrees + subtree) * 2 + part], each below 2^32,
+/// filled to a whole byte.
 void WriteSizes(std::span<const uint64_t> sizes, const SizeGrid& grid, ByteWriter* out);
 
-/// Reads them back. The caller has checked LeastBits against the bytes left. Failure kCorrupt.
-std::vector<uint64_t> ReadSizes(const SizeGrid& grid, ByteReader* in);
+/// Appends what WriteSizes wrote behind the same sizes. The caller has checked LeastBits against
+/// the bytes left. Failure kCorrupt.
+void ReadSizes(const SizeGrid& grid, ByteReader* in, std::vector<uint64_t>* sizes);
 
 }  // namespace folprom::io

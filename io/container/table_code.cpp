@@ -20,9 +20,11 @@ constexpr uint64_t kLeastSubtreeBytes = 8;
 /// The lower half of an error bound is 0.
 uint64_t UpperHalf(float error_bound) { return std::bit_cast<uint32_t>(error_bound) >> 16; }
 
-void WriteLayers(const FileTable& table, ByteWriter* out) {
+void WriteLayers(const FileTable& table, size_t begin, size_t end, ByteWriter* out) {
   LayerRecord before;
-  for (const LayerRecord& layer : table.layers) {
+  if (begin > 0) before = table.layers[begin - 1];
+  for (size_t i = begin; i < end; ++i) {
+    const LayerRecord& layer = table.layers[i];
     out->Varint(ZigZag(UpperHalf(layer.error_bound) - UpperHalf(before.error_bound)));
     const uint64_t more_vertices = layer.vertices - before.vertices;
     out->Varint(more_vertices);
@@ -32,9 +34,11 @@ void WriteLayers(const FileTable& table, ByteWriter* out) {
   }
 }
 
-void ReadLayers(ByteReader* in, FileTable* table) {
+void ReadLayers(size_t count, ByteReader* in, FileTable* table) {
   LayerRecord before;
-  for (LayerRecord& layer : table->layers) {
+  if (!table->layers.empty()) before = table->layers.back();
+  for (size_t i = 0; i < count; ++i) {
+    LayerRecord layer;
     const uint64_t upper = UpperHalf(before.error_bound) + UnZigZag(in->Varint());
     if (upper > 0xffff) in->Fail("error bound of more bits than a float has");
     layer.error_bound = std::bit_cast<float>(static_cast<uint32_t>(upper) << 16);
@@ -43,6 +47,7 @@ void ReadLayers(ByteReader* in, FileTable* table) {
     layer.vertices = before.vertices + more_vertices;
     layer.faces = before.faces + 2 * more_vertices + UnZigZag(in->Varint());
     if (layer.faces > kMaxCount) in->Fail("number of a layer's faces negative or beyond 2^48");
+    table->layers.push_back(layer);
     before = layer;
   }
 }
@@ -93,96 +98,142 @@ bool HasShortOrigin(const FileTable& table) {
   return std::all_of(table.origin.begin(), table.origin.end(), same);
 }
 
-SizeGrid GridOf(const FileTable& table) {
-  return {table.layers.size(), table.subtrees.size(), table.HasSeams()};
+SizeGrid GridOf(const FileTable& table, size_t layers) {
+  return {layers, table.subtrees.size(), table.HasSeams()};
 }
 
-/// Layers, subtrees and sizes, none of which may claim more than the bytes left can hold.
-void ReadCounts(ByteReader* in, FileTable* table) {
-  const uint64_t layers = in->VarintUpTo(kMaxLayers, "number of layers");
-  const uint64_t subtrees = in->VarintUpTo(UINT32_MAX, "number of subtrees");
-  const uint64_t records = layers * kLeastLayerBytes + subtrees * kLeastSubtreeBytes;
-  const uint64_t size_bytes = (SizeGrid{layers, subtrees, false}.LeastBits() + 7) / 8;
-  if (records + size_bytes > in->left()) {
-    in->Fail(std::to_string(layers) + " layers of " + std::to_string(subtrees) +
-             " subtrees need at least " + std::to_string(records + size_bytes) +
-             " bytes of table, " + std::to_string(in->left()) + " are left");
+/// Segments that the layers of the first table hold at least, so that each table pays.
+constexpr uint64_t kFirstBytes = 256;
+
+/// One after the last layer of each table: a table tells of the layers that double the bytes.
+std::vector<size_t> EndsOfTables(const FileTable& table) {
+  std::vector<size_t> ends;
+  const size_t layer_segments = table.subtrees.size() * 2;
+  uint64_t before = kFirstBytes, inside = 0;
+  for (size_t layer = 0; layer < table.layers.size(); ++layer) {
+    for (size_t i = 0; i < layer_segments; ++i) {
+      inside += table.segment_bytes[layer * layer_segments + i];
+    }
+    if (inside < before || layer + 1 == table.layers.size()) continue;
+    ends.push_back(layer + 1);
+    before += inside;
+    inside = 0;
   }
-  table->layers.resize(layers);
-  table->subtrees.resize(subtrees);
+  ends.push_back(table.layers.size());
+  return ends;
+}
+
+void WriteMesh(const FileTable& table, ByteWriter* out) {
+  out->Varint(table.vertices);
+  out->Varint(table.faces);
+  out->U8(table.coordinate_type);
+  const bool is_short = HasShortOrigin(table);
+  out->U8(is_short ? 1 : 0);
+  for (const double origin : table.origin) {
+    if (is_short) {
+      out->F32(static_cast<float>(origin));
+    } else {
+      out->F64(origin);
+    }
+  }
+  out->F64(table.unit);
+  for (const int32_t extent : table.extent) out->Varint(static_cast<uint64_t>(extent));
+  out->Varint(table.codec.size());
+  out->Bytes(table.codec);
+  out->Varint(table.layers.size());
+  out->Varint(table.subtrees.size());
+  for (const SubtreeRecord& subtree : table.subtrees) WriteSubtree(subtree, out);
 }
 
 }  // namespace
 
-std::vector<uint8_t> EncodeTable(const FileTable& table) {
+std::vector<CodedTable> EncodeTables(const FileTable& table) {
   const std::string fault = TableFault(table);
   if (!fault.empty()) throw Failure(ErrorKind::kInternal, "table to write: " + fault);
-  ByteWriter out;
-  out.Varint(table.vertices);
-  out.Varint(table.faces);
-  out.U8(table.coordinate_type);
-  const bool is_short = HasShortOrigin(table);
-  out.U8(is_short ? 1 : 0);
-  for (const double origin : table.origin) {
-    if (is_short) {
-      out.F32(static_cast<float>(origin));
+  const std::vector<size_t> ends = EndsOfTables(table);
+  std::vector<CodedTable> tables(ends.size());
+  // Each tells how long the next one is.
+  for (size_t i = ends.size(); i-- > 0;) {
+    const size_t begin = i == 0 ? 0 : ends[i - 1], count = ends[i] - begin;
+    ByteWriter out;
+    if (i == 0) WriteMesh(table, &out);
+    out.Varint(count);
+    WriteLayers(table, begin, ends[i], &out);
+    const auto sizes = std::span(table.segment_bytes).first(ends[i] * table.subtrees.size() * 2);
+    WriteSizes(sizes, GridOf(table, count), &out);
+    if (i + 1 < ends.size()) {
+      out.Varint(tables[i + 1].bytes.size());
     } else {
-      out.F64(origin);
+      out.F64(table.tolerance);
+      out.U64(table.digest.vertices);
+      out.U64(table.digest.faces);
+      for (const uint64_t bits : table.kind_bits) out.Varint(bits);
     }
+    tables[i] = {ends[i], std::move(out).Take()};
   }
-  out.F64(table.unit);
-  for (const int32_t extent : table.extent) out.Varint(static_cast<uint64_t>(extent));
-  out.F64(table.tolerance);
-  out.Varint(table.codec.size());
-  out.Bytes(table.codec);
-  out.U64(table.digest.vertices);
-  out.U64(table.digest.faces);
-  for (const uint64_t bits : table.kind_bits) out.Varint(bits);
-  out.Varint(table.layers.size());
-  out.Varint(table.subtrees.size());
-  WriteLayers(table, &out);
-  for (const SubtreeRecord& subtree : table.subtrees) WriteSubtree(subtree, &out);
-  WriteSizes(table.segment_bytes, GridOf(table), &out);
-  return std::move(out).Take();
+  return tables;
 }
 
-FileTable DecodeTable(std::span<const uint8_t> bytes, std::string_view file, uint64_t offset) {
-  ByteReader in(bytes, file, offset);
-  FileTable table;
-  table.vertices = in.VarintUpTo(kMaxCount, "number of vertices");
-  table.faces = in.VarintUpTo(kMaxCount, "number of faces");
-  table.coordinate_type = in.U8();
-  const uint8_t is_short = in.U8();
-  if (is_short > 1) in.Fail("precision of the lattice's origin neither 0 nor 1");
-  for (double& origin : table.origin) {
-    origin = is_short == 1 ? static_cast<double>(in.F32()) : in.F64();
+void TableDecoder::Decode(std::span<const uint8_t> bytes, uint64_t offset) {
+  ByteReader in(bytes, file_, offset);
+  if (!has_mesh_) DecodeMesh(&in);
+  has_mesh_ = true;
+  DecodeLayers(&in);
+  if (table_.layers.size() < layers_total_) {
+    next_bytes_ = in.Varint();
+    if (next_bytes_ == 0) in.Fail("layers are left, but no table of them");
+  } else {
+    next_bytes_ = 0;
+    table_.tolerance = in.F64();
+    table_.digest.vertices = in.U64();
+    table_.digest.faces = in.U64();
+    for (uint64_t& bits : table_.kind_bits) bits = in.Varint();
   }
-  if (is_short == 0 && HasShortOrigin(table))
-    in.Fail("origin of the lattice longer than it need be");
-  table.unit = in.F64();
-  for (int32_t& extent : table.extent) {
-    extent = static_cast<int32_t>(in.VarintUpTo(kMaxCoordinate, "extent of the lattice"));
+  if (in.left() > 0) in.Fail(std::to_string(in.left()) + " bytes after the end of the table");
+  const std::string fault = TableFault(table_);
+  if (!fault.empty()) throw Failure(ErrorKind::kCorrupt, std::string(file_) + ": table: " + fault);
+}
+
+void TableDecoder::DecodeMesh(ByteReader* in) {
+  table_.vertices = in->VarintUpTo(kMaxCount, "number of vertices");
+  table_.faces = in->VarintUpTo(kMaxCount, "number of faces");
+  table_.coordinate_type = in->U8();
+  const uint8_t is_short = in->U8();
+  if (is_short > 1) in->Fail("precision of the lattice's origin neither 0 nor 1");
+  for (double& origin : table_.origin) {
+    origin = is_short == 1 ? static_cast<double>(in->F32()) : in->F64();
   }
-  table.tolerance = in.F64();
-  const auto codec = in.Bytes(in.VarintUpTo(in.left(), "length of the coder's settings"));
-  table.codec.assign(codec.begin(), codec.end());
-  table.digest.vertices = in.U64();
-  table.digest.faces = in.U64();
-  for (uint64_t& bits : table.kind_bits) bits = in.Varint();
-  ReadCounts(&in, &table);
-  ReadLayers(&in, &table);
-  for (size_t i = 0; i < table.subtrees.size(); ++i) {
-    table.subtrees[i] = ReadSubtree(i, table, &in);
+  if (is_short == 0 && HasShortOrigin(table_)) {
+    in->Fail("origin of the lattice longer than it need be");
   }
-  // The records may have taken more than their least, so the sizes are checked again.
-  const SizeGrid grid = GridOf(table);
-  if (grid.LeastBits() > uint64_t{8} * in.left())
-    in.Fail("fewer bytes left than the segment sizes need");
-  table.segment_bytes = ReadSizes(grid, &in);
-  if (in.left() > 0) in.Fail(std::to_string(in.left()) + " bytes after the segment sizes");
-  const std::string fault = TableFault(table);
-  if (!fault.empty()) throw Failure(ErrorKind::kCorrupt, std::string(file) + ": table: " + fault);
-  return table;
+  table_.unit = in->F64();
+  for (int32_t& extent : table_.extent) {
+    extent = static_cast<int32_t>(in->VarintUpTo(kMaxCoordinate, "extent of the lattice"));
+  }
+  const auto codec = in->Bytes(in->VarintUpTo(in->left(), "length of the coder's settings"));
+  table_.codec.assign(codec.begin(), codec.end());
+  layers_total_ = in->VarintUpTo(kMaxLayers, "number of layers");
+  const uint64_t subtrees = in->VarintUpTo(UINT32_MAX, "number of subtrees");
+  if (subtrees * kLeastSubtreeBytes > in->left()) {
+    in->Fail(std::to_string(subtrees) + " subtrees need at least " +
+             std::to_string(subtrees * kLeastSubtreeBytes) + " bytes of table, " +
+             std::to_string(in->left()) + " are left");
+  }
+  table_.subtrees.resize(subtrees);
+  for (size_t i = 0; i < subtrees; ++i) table_.subtrees[i] = ReadSubtree(i, table_, in);
+}
+
+void TableDecoder::DecodeLayers(ByteReader* in) {
+  const size_t left = layers_total_ - table_.layers.size();
+  const uint64_t count = in->VarintUpTo(left, "number of layers of a table");
+  if (count == 0 && left > 0) in->Fail("a table of no layer");
+  if (count * kLeastLayerBytes > in->left()) in->Fail("more layers than bytes left");
+  ReadLayers(count, in, &table_);
+  const SizeGrid grid = GridOf(table_, count);
+  if (grid.LeastBits() > uint64_t{8} * in->left()) {
+    in->Fail("fewer bytes left than the segment sizes need");
+  }
+  ReadSizes(grid, in, &table_.segment_bytes);
 }
 
 }  // namespace folprom::io

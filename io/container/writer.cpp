@@ -9,6 +9,7 @@
 #include "io/container/byte_code.h"
 #include "io/container/header.h"
 #include "io/container/layout.h"
+#include "io/container/table_code.h"
 
 namespace folprom::io {
 namespace {
@@ -72,26 +73,38 @@ std::span<const uint8_t> CheckedSegment(const FileTable& table, const SegmentByt
 }  // namespace
 
 uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out) {
-  const std::vector<uint8_t> header = EncodeHeader(table);
-  const FileLayout layout = LayoutOf(table, header.size());
+  const std::vector<CodedTable> tables = EncodeTables(table);
+  const std::vector<uint8_t> header = EncodeHeader(tables[0].bytes);
   BufferedFile file(&out);
   file.Append(header);
   uint64_t at = header.size();
   GroupHash hash;
-  auto group = layout.groups.begin();
+  const auto close = [&] {
+    file.Append(hash.Close());
+    at += kGroupChecksumBytes;
+  };
+  size_t next_table = 1;
   for (size_t layer = 0; layer < table.layers.size(); ++layer) {
+    if (layer == tables[next_table - 1].end_layer) {
+      const std::vector<uint8_t>& bytes = tables[next_table++].bytes;
+      file.Append(bytes);
+      hash.Add(bytes);
+      at += bytes.size();
+      close();
+    }
+    uint64_t group_begin = at;
     for (size_t subtree = 0; subtree < table.subtrees.size(); ++subtree) {
       for (const SegmentPart part : {SegmentPart::kInner, SegmentPart::kSeam}) {
         const auto bytes = CheckedSegment(table, segment, layer, subtree, part);
         file.Append(bytes);
         hash.Add(bytes);
         at += bytes.size();
-        if (bytes.empty() || at < group->end) continue;
-        file.Append(hash.Close());
-        at += kGroupChecksumBytes;
-        ++group;
+        if (at - group_begin < kGroupBytes) continue;
+        close();
+        group_begin = at;
       }
     }
+    if (at > group_begin) close();
   }
   file.Flush();
   return at;

@@ -1,4 +1,4 @@
-// Writes a .folp file: table first, then the segments layer by layer, in one pass.
+// Writes a .folp file: tables and segments, layer by layer, in one pass.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace folprom::io {
 using SegmentBytes =
     std::function<std::span<const uint8_t>(size_t layer, size_t subtree, SegmentPart part)>;
 
-/// Appends table and segments to `out` (does not commit). The file's size is returned.
-/// Thread-compatible; holds the table and a buffer of 256 KiB. Throws Failure: kOutput; kInternal
+/// Appends tables and segments to `out` (does not commit). The file's size is returned.
+/// Thread-compatible; holds the tables and a buffer of 256 KiB. Throws Failure: kOutput; kInternal
 /// when the table contradicts itself or a segment is not as long as the table says; kLimit when the
-/// table takes 4 GiB or more; and what `segment` throws.
+/// first table takes 4 GiB or more; and what `segment` throws.
 uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out);
 
 }  // namespace folprom::io

@@ -48,8 +48,8 @@ TEST_F(Report, InfoAsJson) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto info = outcome.json();
   ExpectKeys(info, {"format_version", "vertices", "faces", "bytes", "bytes_present",
-                    "layers_present", "subtrees", "tolerance", "box_lo", "box_hi", "codec",
-                    "table_bytes", "checksum_bytes", "flush_bytes", "overhead"});
+                    "layers_present", "layers_total", "subtrees", "tolerance", "box_lo", "box_hi",
+                    "codec", "table_bytes", "checksum_bytes", "flush_bytes", "overhead"});
   ExpectKeys(info.at("bits_per_vertex_by_kind"),
              {"split", "offsets", "refinement", "connectivity", "exceptions", "seams"});
   EXPECT_EQ(info.at("vertices"), 3000);

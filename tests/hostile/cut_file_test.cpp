@@ -17,15 +17,15 @@ std::span<const uint8_t> Cut(const Bytes& file, size_t bytes) {
 
 class CutFile : public SmallFileTest {
  protected:
-  static size_t TableBytes() {
-    return io::ContainerReader::Open(SmallFile(), "whole").value().table_bytes();
+  static size_t HeaderBytes() {
+    return io::ContainerReader::Open(SmallFile(), "whole").value().header_bytes();
   }
 
-  /// Byte positions around the end of the table and of every layer, the only ones at which what
+  /// Byte positions around the end of the header and of every layer, the only ones at which what
   /// decodes can change, and some between.
   static std::set<size_t> InterestingCuts() {
     auto container = io::ContainerReader::Open(SmallFile(), "whole").value();
-    std::set<size_t> cuts{0, 1, container.table_bytes() - 1, container.table_bytes()};
+    std::set<size_t> cuts{0, 1, container.header_bytes() - 1, container.header_bytes()};
     for (size_t layer = 0; layer < container.table().layers.size(); ++layer) {
       for (size_t near : {0u, 1u}) cuts.insert(container.LayerEnd(layer) - near);
     }
@@ -47,8 +47,8 @@ TEST_P(CutFile, HasSeveralSubtreesSeamsAndLayers) {
   EXPECT_EQ(lods.back().faces.size(), 604u);
 }
 
-TEST_P(CutFile, InsideTheTableIsCorruptAtEveryByte) {
-  for (size_t bytes = 0; bytes < TableBytes(); ++bytes) {
+TEST_P(CutFile, InsideTheHeaderIsCorruptAtEveryByte) {
+  for (size_t bytes = 0; bytes < HeaderBytes(); ++bytes) {
     auto decoder = MemoryDecoder::Open(Cut(SmallFile(), bytes));
     ASSERT_FALSE(decoder.ok()) << bytes;
     ASSERT_EQ(decoder.error().kind, ErrorKind::kCorrupt)
@@ -60,7 +60,7 @@ TEST_P(CutFile, GivesTheMeshOfItsCompleteLayersAtEveryByte) {
   ErrorKind error;
   const auto whole = DecodeLods(SmallFile(), &error);
   auto container = io::ContainerReader::Open(SmallFile(), "whole").value();
-  for (size_t bytes = TableBytes(); bytes < SmallFile().size(); ++bytes) {
+  for (size_t bytes = HeaderBytes(); bytes < SmallFile().size(); ++bytes) {
     size_t complete = 0;
     while (complete < whole.size() && container.LayerEnd(complete) <= bytes) ++complete;
     // A copy of its own, so that a sanitizer sees a read beyond the cut.
@@ -109,6 +109,28 @@ TEST_P(CutFile, DecodesToTheFileOfItsCompleteLayers) {
     std::remove(folder.File("same.ply").c_str());
   }
   EXPECT_EQ(folder.Names(), (std::vector<std::string>{"cut.folp", "whole.folp"}));
+}
+
+TEST_P(CutFile, InfoTellsWhatIsThere) {
+  TemporaryFolder folder;
+  auto container = io::ContainerReader::Open(SmallFile(), "whole").value();
+  const size_t layers = container.layers_total();
+  size_t last_table = layers - 1;  // begins before this layer
+  while (last_table > 0 && container.LayerBegin(last_table) == container.LayerEnd(last_table - 1)) {
+    --last_table;
+  }
+  ASSERT_GT(last_table, 0u) << "all in one table";
+  for (size_t layer = 0; layer < layers; ++layer) {
+    // A layer may have no bytes, and is then there with the one before.
+    if (layer + 1 < layers && container.LayerEnd(layer + 1) == container.LayerEnd(layer)) continue;
+    WriteFile(folder.File("cut.folp"), Cut(SmallFile(), container.LayerEnd(layer)));
+    const FileInfo info = ReadInfo(folder.File("cut.folp")).value();
+    EXPECT_EQ(info.layers_present, layer + 1);
+    EXPECT_EQ(info.layers_total, layers);
+    EXPECT_GE(info.layers.size(), layer + 1);
+    EXPECT_EQ(info.has_bits, layer >= last_table);
+    EXPECT_EQ(info.tolerance.has_value(), layer >= last_table);
+  }
 }
 
 TEST_P(CutFile, IsNeverLossless) {

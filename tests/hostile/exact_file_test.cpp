@@ -23,7 +23,8 @@ const Bytes& ExactFile() {
 }
 
 TEST(ExactFile, HasRests) {
-  const CodecParameters parameters = ParametersOf(TakeApart(ExactFile()).table);
+  const io::FileTable table = TakeApart(ExactFile()).table;
+  const CodecParameters parameters = ParametersOf(table, table.layers.size());
   EXPECT_TRUE(parameters.has_rests());
   ErrorKind error;
   const auto lods = DecodeLods(ExactFile(), &error);
@@ -77,7 +78,7 @@ TEST(ExactFile, UnderAnotherLatticeIsCorrupt) {
   ExpectCorrupt([](io::FileTable& table) { table.origin[2] = 1e300; });
   ExpectCorrupt([](io::FileTable& table) { table.origin[0] = 1e17; });
   ExpectCorrupt([](io::FileTable& table) {
-    CodecParameters parameters = ParametersOf(table);
+    CodecParameters parameters = ParametersOf(table, table.layers.size());
     ++parameters.exact->step.exponent;
     table.codec = WriteParameters(parameters);
   });
@@ -85,7 +86,7 @@ TEST(ExactFile, UnderAnotherLatticeIsCorrupt) {
 
 TEST(ExactFile, WhoseTableHidesTheRestsIsCorrupt) {
   Parts parts = TakeApart(ExactFile());
-  CodecParameters parameters = ParametersOf(parts.table);
+  CodecParameters parameters = ParametersOf(parts.table, parts.table.layers.size());
   parameters.exact->step.has_rests = false;
   parts.table.codec = WriteParameters(parameters);
   const Bytes file = PutTogether(parts);

@@ -52,7 +52,9 @@ ErrorKind DecodeFileError(const Parts& parts) {
   return report.error().kind;
 }
 
-CodecParameters ParametersIn(const Parts& parts) { return ParametersOf(parts.table); }
+CodecParameters ParametersIn(const Parts& parts) {
+  return ParametersOf(parts.table, parts.table.layers.size());
+}
 
 class ForgedTable : public SmallFileTest {
  protected:
@@ -205,11 +207,11 @@ TEST_P(ForgedTable, WithHugeCountsInEveryPlaceAndNoBytesIsCorrupt) {
 
 TEST_P(ForgedTable, WithHugeSegmentsThatAreNotThereHasNoCompleteLayer) {
   Parts parts = Small();
-  const size_t table_bytes = io::ContainerReader::Open(SmallFile(), "small").value().table_bytes();
+  const size_t header = io::ContainerReader::Open(SmallFile(), "small").value().header_bytes();
   // Sizes are part of the table, so the table is written with a file that is then cut to nothing.
   parts.segments.assign(parts.segments.size(), Bytes(5000));
   Bytes file = PutTogether(parts);
-  file.resize(std::min(file.size(), 2 * table_bytes));
+  file.resize(std::min(file.size(), 2 * header));
   EXPECT_EQ(ErrorOf(file), ErrorKind::kCorrupt);
 }
 

@@ -85,19 +85,21 @@ struct FileInfo {
   uint32_t format_version = 0;
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  uint64_t bytes = 0;          ///< as announced by the table
+  uint64_t bytes = 0;          ///< as announced; of a cut file, as far as its tables are there
   uint64_t bytes_present = 0;  ///< fewer when the file is cut
   uint64_t layers_present = 0;
+  uint64_t layers_total = 0;
   uint64_t subtrees = 0;
-  double tolerance = 0;
+  std::optional<double> tolerance;  ///< unknown where the last table is missing
   std::optional<ExactInfo> exact;
   std::array<double, 3> box_lo{}, box_hi{};
   CodecSettings codec;
-  std::vector<LayerInfo> layers;
+  std::vector<LayerInfo> layers;  ///< whose table is there
+  bool has_bits = false;          ///< what follows is known: the last table is there
   /// Bits per vertex of the original by kind.
   double split = 0, offsets = 0, refinement = 0, connectivity = 0, exceptions = 0, seams = 0;
   uint64_t table_bytes = 0, checksum_bytes = 0, flush_bytes = 0;
-  double overhead = 0;  ///< (table + checksums + flushes) / bytes
+  double overhead = 0;  ///< (tables + checksums + flushes) / bytes
 };
 
 Result<FileInfo> ReadInfo(const std::string& input);

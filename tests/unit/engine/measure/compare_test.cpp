@@ -136,7 +136,7 @@ TEST_F(CompareFile, DecodesFolpFiles) {
   EncodeOptions options;
   options.temporary_folder = folder_.path();
   EncodeFile(scan, folder_.File("a.folp"), options, *runner, progress_).value();
-  const double tolerance = ReadInfo(folder_.File("a.folp")).value().tolerance;
+  const double tolerance = ReadInfo(folder_.File("a.folp")).value().tolerance.value();
   const Comparison c = Run(scan, folder_.File("a.folp")).value();
   EXPECT_GT(c.forward.mean, 0);
   EXPECT_LE(c.forward.max, tolerance * std::sqrt(3.0));

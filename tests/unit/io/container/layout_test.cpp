@@ -14,31 +14,37 @@ FileTable TableOf(std::vector<uint64_t> sizes) {
   return table;
 }
 
+FileLayout LayoutOf(const FileTable& table, uint64_t header_bytes) {
+  FileLayout layout(header_bytes);
+  layout.AddLayers(table);
+  return layout;
+}
+
 using Ends = std::vector<std::pair<uint64_t, uint64_t>>;
 Ends GroupsOf(const FileLayout& layout) {
   Ends groups;
-  for (const ChecksumGroup& group : layout.groups) groups.emplace_back(group.begin, group.end);
+  for (const ChecksumGroup& group : layout.groups()) groups.emplace_back(group.begin, group.end);
   return groups;
 }
 
 TEST(Layout, JoinsSegmentsUntilAGroupHas512Bytes) {
   const FileLayout layout = LayoutOf(TableOf({511, 1, 512, 0}), 100);
   EXPECT_EQ(GroupsOf(layout), (Ends{{100, 612}, {616, 1128}}));
-  EXPECT_EQ(layout.segment_begin, (std::vector<uint64_t>{100, 611, 616, 1132}));
-  EXPECT_EQ(layout.file_bytes, 1132u);
-  EXPECT_EQ(layout.checksum_bytes, 8u);
+  EXPECT_EQ(layout.segment_begin(), (std::vector<uint64_t>{100, 611, 616, 1132}));
+  EXPECT_EQ(layout.end(), 1132u);
+  EXPECT_EQ(layout.checksum_bytes(), 8u);
 }
 
 TEST(Layout, TheRestOfALayerIsItsOwnGroup) {
   const FileLayout layout = LayoutOf(TableOf({600, 5, 0, 6, 7, 0, 0, 0}), 0);
   EXPECT_EQ(GroupsOf(layout), (Ends{{0, 600}, {604, 615}, {619, 626}}));
-  EXPECT_EQ(layout.layer_end, (std::vector<uint64_t>{619, 630}));
+  EXPECT_EQ(layout.layer_end(), (std::vector<uint64_t>{619, 630}));
 }
 
 TEST(Layout, ALayerWithoutBytesHasNoChecksum) {
   const FileLayout layout = LayoutOf(TableOf({0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}), 50);
   EXPECT_EQ(GroupsOf(layout), (Ends{{50, 51}}));
-  EXPECT_EQ(layout.layer_end, (std::vector<uint64_t>{50, 55, 55}));
+  EXPECT_EQ(layout.layer_end(), (std::vector<uint64_t>{50, 55, 55}));
 }
 
 TEST(Layout, AGroupNeverCrossesALayer) {
@@ -46,10 +52,23 @@ TEST(Layout, AGroupNeverCrossesALayer) {
   EXPECT_EQ(GroupsOf(layout), (Ends{{0, 4}, {8, 12}}));
 }
 
+TEST(Layout, ATableBetweenLayersIsNoPartOfThem) {
+  FileTable table = TableOf({10, 0, 0, 0});
+  FileLayout layout = LayoutOf(table, 100);
+  layout.AddTable(30);
+  table = TableOf({10, 0, 0, 0, 20, 0, 0, 0});
+  layout.AddLayers(table);
+  EXPECT_EQ(GroupsOf(layout), (Ends{{100, 110}, {148, 168}}));
+  EXPECT_EQ(layout.layer_begin(), (std::vector<uint64_t>{100, 148}));
+  EXPECT_EQ(layout.layer_end(), (std::vector<uint64_t>{114, 172}));
+  EXPECT_EQ(layout.table_bytes(), 134u);
+  EXPECT_EQ(layout.end(), 172u);
+}
+
 TEST(Layout, WithoutLayersTheFileEndsAfterTheHeader) {
   const FileLayout layout = LayoutOf(FileTable{}, 77);
-  EXPECT_EQ(layout.file_bytes, 77u);
-  EXPECT_TRUE(layout.groups.empty());
+  EXPECT_EQ(layout.end(), 77u);
+  EXPECT_TRUE(layout.groups().empty());
 }
 
 }  // namespace

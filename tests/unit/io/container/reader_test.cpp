@@ -68,13 +68,58 @@ TEST(ContainerReader, AccountsForEveryByte) {
   EXPECT_EQ(reader->LayerEnd(table.layers.size() - 1), file.size());
 }
 
+/// Three layers in three tables.
+FileTable TableInParts() {
+  FileTable table = ExampleTable();
+  table.layers = {{4, 100, 196}, {2, 300, 596}, {1, 700, 1396}};
+  table.segment_bytes = {300, 0, 18, 3, 600, 0, 500, 7, 900, 1, 1000, 2};
+  return table;
+}
+
+TEST(ContainerReader, ReadsTablesBetweenLayersAtEveryTruncation) {
+  const FileTable table = TableInParts();
+  const auto file = SampleFile(table);
+  auto whole = ContainerReader::Open(file, "scan.folp");
+  EXPECT_EQ(whole->table(), table);
+  EXPECT_GT(whole->LayerBegin(1), whole->LayerEnd(0));
+  EXPECT_GT(whole->LayerBegin(2), whole->LayerEnd(1));
+  for (size_t size = whole->header_bytes(); size < file.size(); ++size) {
+    auto reader = ContainerReader::Open(std::span(file).first(size), "scan.folp");
+    ASSERT_TRUE(reader.ok()) << reader.error().message;
+    EXPECT_EQ(reader->layers_total(), 3u);
+    size_t complete = 0, known = 1;
+    while (complete < 3 && whole->LayerEnd(complete) <= size) ++complete;
+    while (known < 3 && whole->LayerBegin(known) <= size) ++known;
+    EXPECT_EQ(reader->complete_layers(), complete);
+    EXPECT_EQ(reader->table().layers.size(), known);
+    EXPECT_EQ(reader->has_all_tables(), known == 3);
+    ForEachSegment(table, [&](size_t layer, size_t subtree, SegmentPart part) {
+      EXPECT_TRUE(ComesBack(*reader, layer, subtree, part) || layer >= complete);
+    });
+  }
+}
+
+TEST(ContainerReader, FindsEveryFlippedBitOfATableBetweenLayers) {
+  auto file = SampleFile(TableInParts());
+  auto whole = ContainerReader::Open(file, "scan.folp");
+  for (size_t layer : {1u, 2u}) {
+    for (uint64_t byte = whole->LayerEnd(layer - 1); byte < whole->LayerBegin(layer); ++byte) {
+      for (int bit = 0; bit < 8; ++bit) {
+        file[byte] = static_cast<uint8_t>(file[byte] ^ 1u << bit);
+        ExpectOpenFails(file, ErrorKind::kCorrupt, "checksum of the table (bytes");
+        file[byte] = static_cast<uint8_t>(file[byte] ^ 1u << bit);
+      }
+    }
+  }
+}
+
 TEST(ContainerReader, EveryTruncationGivesTheLayersThatAreWhole) {
   const FileTable table = ExampleTable();
   const auto file = SampleFile(table);
   auto whole = ContainerReader::Open(file, "scan.folp");
   for (size_t size = 0; size < file.size(); ++size) {
     const auto cut = std::span(file).first(size);
-    if (size < whole->table_bytes()) {
+    if (size < whole->header_bytes()) {
       ExpectOpenFails(cut, ErrorKind::kCorrupt, "cut inside the header: " + std::to_string(size));
       continue;
     }
@@ -101,7 +146,7 @@ TEST(ContainerReader, EveryFlippedBitIsFound) {
     file[bit / 8] = static_cast<uint8_t>(file[bit / 8] ^ mask);
     auto reader = ContainerReader::Open(file, "scan.folp");
     if (reader.ok()) {
-      EXPECT_GE(bit / 8, reader->table_bytes());
+      EXPECT_GE(bit / 8, reader->header_bytes());
       bool all = true;
       ForEachSegment(table, [&](size_t layer, size_t subtree, SegmentPart part) {
         all = ComesBack(*reader, layer, subtree, part) && all;

@@ -17,7 +17,8 @@ std::vector<uint8_t> Coded(std::span<const uint64_t> sizes, size_t layers, size_
 
 std::vector<uint64_t> Decoded(std::span<const uint8_t> bytes, size_t layers, size_t subtrees) {
   ByteReader in(bytes, "file", 0);
-  auto sizes = ReadSizes({layers, subtrees, true}, &in);
+  std::vector<uint64_t> sizes;
+  ReadSizes({layers, subtrees, true}, &in, &sizes);
   EXPECT_EQ(in.left(), 0u);
   return sizes;
 }
@@ -52,7 +53,26 @@ TEST(SizeCode, LeavesOutTheSeamsWhereThereAreNone) {
   const auto bytes = std::move(out).Take();
   EXPECT_LT(bytes.size(), std::move(with).Take().size());
   ByteReader in(bytes, "file", 0);
-  EXPECT_EQ(ReadSizes({2, 2, false}, &in), sizes);
+  std::vector<uint64_t> back;
+  ReadSizes({2, 2, false}, &in, &back);
+  EXPECT_EQ(back, sizes);
+}
+
+TEST(SizeCode, PredictsLayersByThoseOfAnEarlierRun) {
+  const FileTable table = ScanLikeTable();
+  const std::span<const uint64_t> sizes = table.segment_bytes;
+  ByteWriter first, rest;
+  WriteSizes(sizes.first(20 * 8 * 2), {20, 8, true}, &first);
+  WriteSizes(sizes, {10, 8, true}, &rest);
+  const auto first_bytes = std::move(first).Take(), rest_bytes = std::move(rest).Take();
+  EXPECT_LE(first_bytes.size() + rest_bytes.size(), Coded(sizes, 30, 8).size() + 1);
+  std::vector<uint64_t> back;
+  for (const auto& [bytes, layers] : {std::pair(first_bytes, 20u), {rest_bytes, 10u}}) {
+    ByteReader in(bytes, "file", 0);
+    ReadSizes({layers, 8, true}, &in, &back);
+    EXPECT_EQ(in.left(), 0u);
+  }
+  EXPECT_EQ(back, table.segment_bytes);
 }
 
 TEST(SizeCode, RejectsSizesBeyondTheLimit) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "folprom/result.h"
@@ -23,8 +25,33 @@ Error FailureOf(const std::function<void()>& call) {
   return {ErrorKind::kUsage, "no failure"};
 }
 
+FileTable Decoded(std::span<const CodedTable> tables) {
+  TableDecoder decoder("file");
+  for (size_t i = 0; i < tables.size(); ++i) {
+    decoder.Decode(tables[i].bytes, 0);
+    EXPECT_EQ(decoder.table().layers.size(), tables[i].end_layer);
+    EXPECT_EQ(decoder.next_bytes(), i + 1 < tables.size() ? tables[i + 1].bytes.size() : 0);
+  }
+  EXPECT_EQ(decoder.layers_total(), decoder.table().layers.size());
+  return decoder.table();
+}
+
+/// A table of few bytes has one part, as the file that it announces.
+std::vector<uint8_t> EncodeTable(const FileTable& table) {
+  auto tables = EncodeTables(table);
+  EXPECT_EQ(tables.size(), 1u);
+  return std::move(tables[0].bytes);
+}
+
+FileTable DecodeTable(std::span<const uint8_t> bytes) {
+  TableDecoder decoder("scan.folp");
+  decoder.Decode(bytes, 14);
+  EXPECT_EQ(decoder.next_bytes(), 0u);
+  return decoder.table();
+}
+
 void ExpectCorrupt(std::span<const uint8_t> bytes, const std::string& reason) {
-  const Error error = FailureOf([&] { DecodeTable(bytes, "scan.folp", 14); });
+  const Error error = FailureOf([&] { DecodeTable(bytes); });
   EXPECT_EQ(error.kind, ErrorKind::kCorrupt) << error.message;
   EXPECT_TRUE(error.message.starts_with("scan.folp: ")) << error.message;
   EXPECT_NE(error.message.find(reason), std::string::npos) << error.message;
@@ -40,19 +67,22 @@ ByteWriter BeforeCounts(uint64_t vertices = 0, uint64_t extent = 0) {
   for (int i = 0; i < 3; ++i) out.F32(0);
   out.F64(1);
   for (int i = 0; i < 3; ++i) out.Varint(extent);
-  out.F64(0);
   out.Varint(0);
-  out.U64(0);
-  out.U64(0);
-  for (size_t i = 0; i < kBitKinds; ++i) out.Varint(0);
   return out;
+}
+
+/// The fields behind the sizes of the last layer.
+void Finish(ByteWriter* out) {
+  out->F64(0);
+  out->U64(0);
+  out->U64(0);
+  for (size_t i = 0; i < kBitKinds; ++i) out->Varint(0);
 }
 
 TEST(TableCode, BringsBackRandomTables) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     const FileTable table = RandomTable(seed, seed % 2 == 0);
-    const auto bytes = EncodeTable(table);
-    EXPECT_EQ(DecodeTable(bytes, "file", 0), table) << seed;
+    EXPECT_EQ(Decoded(EncodeTables(table)), table) << seed;
   }
 }
 
@@ -61,7 +91,7 @@ TEST(TableCode, KeepsEveryBitOfFloats) {
   table.origin = {-0.0, 1e-310, -1.7976931348623157e308};
   table.unit = 5e-324;
   table.layers[1].error_bound = std::bit_cast<float>(uint32_t{0x00010000});
-  const FileTable back = DecodeTable(EncodeTable(table), "file", 0);
+  const FileTable back = DecodeTable(EncodeTable(table));
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(std::bit_cast<uint64_t>(back.origin[i]), std::bit_cast<uint64_t>(table.origin[i]));
   }
@@ -70,7 +100,8 @@ TEST(TableCode, KeepsEveryBitOfFloats) {
 }
 
 TEST(TableCode, AScanLikeTableIsSmall) {
-  const size_t bytes = EncodeTable(ScanLikeTable()).size();
+  size_t bytes = 0;
+  for (const CodedTable& table : EncodeTables(ScanLikeTable())) bytes += table.bytes.size();
   RecordProperty("bytes", static_cast<int>(bytes));
   EXPECT_LE(bytes, 2000u);
 }
@@ -81,18 +112,23 @@ TEST(TableCode, RejectsEveryTruncationAndExtraBytes) {
     ExpectCorrupt(std::span(bytes).first(size), "");
   }
   bytes.push_back(0);
-  ExpectCorrupt(bytes, "1 bytes after the segment sizes");
+  ExpectCorrupt(bytes, "1 bytes after the end of the table");
 }
 
 TEST(TableCode, DamagedTablesGiveAnErrorOrAConsistentTable) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 20000; ++trial) {
-    auto bytes = EncodeTable(trial % 2 == 0 ? ExampleTable() : RandomTable(random() % 50, true));
+    auto tables = EncodeTables(trial % 2 == 0 ? ExampleTable() : RandomTable(random() % 50, true));
     for (uint64_t i = 0; i <= random() % 3; ++i) {
+      auto& bytes = tables[random() % tables.size()].bytes;
       bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
     }
     try {
-      EXPECT_EQ(TableFault(DecodeTable(bytes, "file", 0)), "");
+      TableDecoder decoder("file");
+      for (const CodedTable& table : tables) {
+        decoder.Decode(table.bytes, 0);
+        EXPECT_EQ(TableFault(decoder.table()), "");
+      }
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.error().kind, ErrorKind::kCorrupt);
     }
@@ -101,24 +137,66 @@ TEST(TableCode, DamagedTablesGiveAnErrorOrAConsistentTable) {
 
 TEST(TableCode, RejectsCountsThatTheBytesLeftCannotHold) {
   const auto with_counts = [](uint64_t layers, uint64_t subtrees, size_t bytes) {
-    ByteWriter out = BeforeCounts();
+    ByteWriter out = BeforeCounts(subtrees);
     out.Varint(layers);
     out.Varint(subtrees);
+    for (uint64_t i = 0; i < subtrees && bytes > subtrees * 8; ++i) {
+      out.Bytes(std::vector<uint8_t>{1, 0, 0, 0, 0, 0, 0, 0});
+      bytes -= 8;
+    }
+    out.Varint(std::min(layers, uint64_t{4096}));
     out.Bytes(std::vector<uint8_t>(bytes));
     return std::move(out).Take();
   };
   ExpectCorrupt(with_counts(4097, 0, 100), "number of layers is 4097, at most 4096");
   ExpectCorrupt(with_counts(UINT64_MAX, 1, 100), "number of layers");
   ExpectCorrupt(with_counts(1, uint64_t{1} << 32, 100), "number of subtrees");
-  ExpectCorrupt(with_counts(0, UINT32_MAX, 100), "bytes of table, 100 are left");
-  ExpectCorrupt(with_counts(4096, UINT32_MAX, 100), "bytes of table, 100 are left");
+  ExpectCorrupt(with_counts(0, UINT32_MAX, 100), "bytes of table, 101 are left");
+  ExpectCorrupt(with_counts(4096, UINT32_MAX, 100), "bytes of table, 102 are left");
+  ExpectCorrupt(with_counts(4096, 0, 4096 * 3 - 1), "more layers than bytes left");
   // Room for the records, not for 4,096 x 2,000 sizes.
-  ExpectCorrupt(with_counts(4096, 2000, 4096 * 4 + 2000 * 8), "bytes of table");
+  ExpectCorrupt(with_counts(4096, 2000, 4096 * 4 + 2000 * 8), "than the segment sizes need");
+}
+
+TEST(TableCode, PartsWhereTheBytesHaveDoubled) {
+  FileTable table = ScanLikeTable();
+  const auto tables = EncodeTables(table);
+  EXPECT_GE(tables.size(), 4u);
+  const auto bytes_before = [&](size_t layer) {
+    const auto sizes = std::span(table.segment_bytes).first(layer * table.subtrees.size() * 2);
+    return std::accumulate(sizes.begin(), sizes.end(), uint64_t{0});
+  };
+  for (size_t i = 1; i + 1 < tables.size(); ++i) {
+    const uint64_t begin = bytes_before(tables[i - 1].end_layer);
+    EXPECT_GE(bytes_before(tables[i].end_layer), 2 * begin);
+    EXPECT_LT(bytes_before(tables[i].end_layer - 1), 2 * begin + 256);
+  }
+}
+
+TEST(TableCode, RejectsATableOfNoLayerAndLayersWithoutATable) {
+  const auto table = [](uint64_t layers, uint64_t here, uint64_t next) {
+    ByteWriter out = BeforeCounts();
+    out.Varint(layers);
+    out.Varint(0);
+    out.Varint(here);
+    for (uint64_t i = 0; i < 3 * here; ++i) out.Varint(0);
+    if (here > 0) out.U8(0);
+    if (here < layers) out.Varint(next);
+    return std::move(out).Take();
+  };
+  ExpectCorrupt(table(2, 0, 7), "a table of no layer");
+  ExpectCorrupt(table(2, 1, 0), "layers are left, but no table of them");
+  ExpectCorrupt(table(1, 2, 0), "number of layers of a table is 2, at most 1");
+  TableDecoder decoder("file");
+  decoder.Decode(table(2, 1, 7), 0);
+  EXPECT_EQ(decoder.next_bytes(), 7u);
+  EXPECT_EQ(decoder.layers_total(), 2u);
+  EXPECT_EQ(decoder.table().layers.size(), 1u);
 }
 
 TEST(TableCode, RejectsSettingsLongerThanTheTable) {
   auto bytes = EncodeTable(ExampleTable());
-  const size_t settings = 2 + 2 + 1 + 1 + 12 + 8 + 5 + 8;
+  const size_t settings = 2 + 2 + 1 + 1 + 12 + 8 + 5;
   ASSERT_EQ(bytes[settings], 2);
   bytes[settings] = 0x7f;
   ExpectCorrupt(bytes, "length of the coder's settings is 127");
@@ -132,11 +210,11 @@ TEST(TableCode, ErrorBoundsAreRoundedUp) {
     FileTable table = ExampleTable();
     table.layers[0].error_bound = NextErrorBound(bound);
     EXPECT_EQ(TableFault(table), "");
-    EXPECT_EQ(DecodeTable(EncodeTable(table), "f", 0), table);
+    EXPECT_EQ(DecodeTable(EncodeTable(table)), table);
   }
   FileTable table = ExampleTable();
   table.layers[0].error_bound = 0.1F;
-  EXPECT_THROW(EncodeTable(table), Failure);
+  EXPECT_THROW(EncodeTables(table), Failure);
 }
 
 TEST(TableCode, RejectsASeamWhereNoSubtreeHasALowerNeighbour) {
@@ -158,11 +236,13 @@ TEST(TableCode, RejectsNeighboursThatAreNotLower) {
     }
     out.Varint(steps.size());
     for (const uint64_t step : steps) out.Varint(step);
+    out.Varint(0);
+    Finish(&out);
     return std::move(out).Take();
   };
-  EXPECT_EQ(DecodeTable(with_neighbours({0, 0}), "f", 0).subtrees[2].lower_neighbours,
+  EXPECT_EQ(DecodeTable(with_neighbours({0, 0})).subtrees[2].lower_neighbours,
             (std::vector<uint32_t>{0, 1}));
-  EXPECT_EQ(DecodeTable(with_neighbours({1}), "f", 0).subtrees[2].lower_neighbours,
+  EXPECT_EQ(DecodeTable(with_neighbours({1})).subtrees[2].lower_neighbours,
             (std::vector<uint32_t>{1}));
   ExpectCorrupt(with_neighbours({2}), "step to the next lower neighbour is 2, at most 1");
   ExpectCorrupt(with_neighbours({1, 0}), "lower neighbour not below its subtree");
@@ -180,9 +260,11 @@ TEST(TableCode, RejectsBoxesOutsideTheExtent) {
       out.Varint(side);
     }
     out.Varint(0);
+    out.Varint(0);
+    Finish(&out);
     return std::move(out).Take();
   };
-  EXPECT_EQ(DecodeTable(with_box(4, 6), "f", 0).subtrees[0].box_hi[2], 10);
+  EXPECT_EQ(DecodeTable(with_box(4, 6)).subtrees[0].box_hi[2], 10);
   ExpectCorrupt(with_box(11, 0), "lower corner of a box is 11");
   ExpectCorrupt(with_box(4, 7), "side of a box is 7");
   ExpectCorrupt(with_box(4, UINT64_MAX), "side of a box");
@@ -193,13 +275,15 @@ TEST(TableCode, RejectsASubtreeWithoutVertices) {
   out.Varint(0);
   out.Varint(1);
   for (int i = 0; i < 8; ++i) out.Varint(0);
+  out.Varint(0);
+  Finish(&out);
   ExpectCorrupt(std::move(out).Take(), "subtree 0: no vertices");
 }
 
 TEST(TableCode, RejectsVerticesThatTheSubtreesDoNotHave) {
   ByteWriter out = BeforeCounts(5);
-  out.Varint(0);
-  out.Varint(0);
+  for (int i = 0; i < 3; ++i) out.Varint(0);
+  Finish(&out);
   ExpectCorrupt(std::move(out).Take(), "the subtrees have 0 vertices, the mesh 5");
 }
 
@@ -208,19 +292,22 @@ TEST(TableCode, RejectsLayersThatContradictTheMesh) {
     ByteWriter out = BeforeCounts(0);
     out.Varint(1);
     out.Varint(0);
+    out.Varint(1);
     out.Varint(ZigZag(std::bit_cast<uint32_t>(bound) >> 16));
     out.Varint(vertices);
     out.Varint(faces_code);
     out.Bytes(std::vector<uint8_t>(1));
+    Finish(&out);
     return std::move(out).Take();
   };
-  EXPECT_EQ(DecodeTable(with_layer(1, 0, 4), "f", 0).layers[0].faces, 2u);
+  EXPECT_EQ(DecodeTable(with_layer(1, 0, 4)).layers[0].faces, 2u);
   ExpectCorrupt(with_layer(1, 1, 0), "growth of a layer's vertices is 1, at most 0");
   ExpectCorrupt(with_layer(1, 0, 3), "number of a layer's faces");
   ExpectCorrupt(with_layer(-1, 0, 0), "layer 0: error bound");
   ByteWriter wide = BeforeCounts(0);
   wide.Varint(1);
   wide.Varint(0);
+  wide.Varint(1);
   wide.Varint(ZigZag(0x10000));
   wide.Bytes(std::vector<uint8_t>(3));
   ExpectCorrupt(std::move(wide).Take(), "error bound of more bits");
@@ -237,7 +324,7 @@ TEST(TableCode, TakesFourBytesForAnOriginOfFloats) {
   table.origin[2] = static_cast<double>(3e38F);
   const auto bytes = EncodeTable(table);
   EXPECT_EQ(bytes.size(), as_doubles - 12);
-  EXPECT_EQ(DecodeTable(bytes, "file", 0), table);
+  EXPECT_EQ(DecodeTable(bytes), table);
 }
 
 TEST(TableCode, RejectsALatticeThatIsNone) {
@@ -259,8 +346,9 @@ TEST(TableCode, RejectsALatticeThatIsNone) {
   ExpectCorrupt(with_double(30, 0), "unit of the lattice");
   ExpectCorrupt(with_double(30, -1), "unit of the lattice");
   ExpectCorrupt(with_double(30, infinity), "unit of the lattice");
-  ExpectCorrupt(with_double(43, -1), "tolerance");
-  ExpectCorrupt(with_double(43, nan), "tolerance");
+  const size_t tolerance = bytes.size() - 8 - 16 - 8;  // before digests and six varints
+  ExpectCorrupt(with_double(tolerance, -1), "tolerance");
+  ExpectCorrupt(with_double(tolerance, nan), "tolerance");
   auto as_floats = bytes;
   as_floats[5] = 2;
   ExpectCorrupt(as_floats, "precision of the lattice's origin");
@@ -286,7 +374,7 @@ TEST(TableCode, RefusesToWriteWhatItWouldNotRead) {
   const auto fault_with = [](const std::function<void(FileTable&)>& change) {
     FileTable table = ExampleTable();
     change(table);
-    const Error error = FailureOf([&] { EncodeTable(table); });
+    const Error error = FailureOf([&] { EncodeTables(table); });
     EXPECT_EQ(error.kind, ErrorKind::kInternal);
     return error.message;
   };

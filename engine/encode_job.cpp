@@ -152,10 +152,12 @@ void EncodeJob::Partition() {
   Offsets offsets = options_.codec.offsets;
   const uint32_t first_steps = FirstStepsFor(parameters_.extent, edge, source_->vertex_count(),
                                              options_.codec.least_layer, per_octave);
-  parameters_.schedule =
-      LayerSchedule(parameters_.extent, per_octave, options_.codec.rounds_per_layer,
-                    SplitLayersFor(parameters_.extent, edge, per_octave, offsets, first_steps),
-                    RefineLayersFor(parameters_.extent, edge, per_octave, offsets), first_steps);
+  const PartedSteps parted =
+      PartedStepsFor(parameters_.extent, edge, first_steps, options_.codec, outcomes_.size());
+  parameters_.schedule = LayerSchedule(
+      parameters_.extent, per_octave, options_.codec.rounds_per_layer,
+      SplitLayersFor(parameters_.extent, edge, per_octave, offsets, first_steps, parted),
+      RefineLayersFor(parameters_.extent, edge, per_octave, offsets), first_steps, parted);
 }
 
 double EncodeJob::TypicalEdge() const {
@@ -273,9 +275,10 @@ void EncodeJob::DropEmptyLayers() {
   for (uint32_t layer = 0; layer < kept_split; ++layer) kept_layers_.push_back(layer);
   kept_layers_.push_back(split - 1);
   for (uint32_t layer = first_refine; layer < all; ++layer) kept_layers_.push_back(layer);
-  parameters_.schedule = LayerSchedule(parameters_.extent, options_.codec.layers_per_octave,
-                                       options_.codec.rounds_per_layer, kept_split + 1,
-                                       all - first_refine, parameters_.schedule.first_steps());
+  parameters_.schedule =
+      LayerSchedule(parameters_.extent, options_.codec.layers_per_octave,
+                    options_.codec.rounds_per_layer, kept_split + 1, all - first_refine,
+                    parameters_.schedule.first_steps(), parameters_.schedule.parted());
 }
 
 io::FileTable EncodeJob::MakeTable() {

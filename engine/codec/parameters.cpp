@@ -28,6 +28,9 @@ constexpr double kFirstSpacing = 4;
 /// Steps that a schedule is worked out for; one of more is refused when it is read.
 constexpr uint32_t kMostSteps = 4096;
 
+/// Typical edges: where sets lie no further apart most are single vertices, and a step is little.
+constexpr double kLeastParted = 1;
+
 double HalvedBy(double value, double octaves) {
   uint32_t whole = static_cast<uint32_t>(octaves);
   value = value * ExpExact(-(octaves - static_cast<double>(whole)) * kLog2);
@@ -49,6 +52,11 @@ uint32_t NextStep(uint32_t done, uint32_t first_steps, uint32_t layers_per_octav
   return done;
 }
 
+/// Layers that the steps behind the first `done` are.
+uint32_t PartsAfter(uint32_t done, const PartedSteps& parted) {
+  return done >= parted.begin && done < parted.end ? parted.parts : 1;
+}
+
 double Longest(const Int3& extent) {
   return static_cast<double>(std::max({extent.x, extent.y, extent.z, 1}));
 }
@@ -57,17 +65,22 @@ double Longest(const Int3& extent) {
 
 LayerSchedule::LayerSchedule(const Int3& extent, uint32_t layers_per_octave,
                              uint32_t rounds_per_layer, uint32_t split_layers,
-                             uint32_t refine_layers, uint32_t first_steps)
+                             uint32_t refine_layers, uint32_t first_steps, PartedSteps parted)
     : longest_(Longest(extent)),
       layers_per_octave_(layers_per_octave),
       rounds_per_layer_(rounds_per_layer),
       split_layers_(split_layers),
       refine_layers_(refine_layers),
-      first_steps_(first_steps) {
-  uint32_t done = first_steps;
-  for (uint32_t layer = 0; layer + 1 < split_layers && layer < kMostSteps; ++layer) {
-    steps_.push_back(done);
-    done = NextStep(done, first_steps, layers_per_octave);
+      first_steps_(first_steps),
+      parted_(parted) {
+  uint32_t done = 0, next = first_steps;
+  while (split_.size() + 1 < split_layers && split_.size() < kMostSteps) {
+    uint32_t left = PartsAfter(done, parted);
+    for (bool begins = true; left > 0 && split_.size() + 1 < split_layers; begins = false) {
+      split_.push_back({done, next, --left, begins});
+    }
+    done = next;
+    next = NextStep(done, first_steps, layers_per_octave);
   }
 }
 
@@ -77,9 +90,9 @@ uint32_t LayerSchedule::rounds(uint32_t layer) const {
 
 double LayerSchedule::SplitSpacing(uint32_t layer, uint32_t round) const {
   if (IsLastSplitLayer(layer)) return 0;
-  const uint32_t before = layer == 0 ? 0 : steps_[layer - 1];
+  const SplitLayer& at = split_[layer];
   const double share = static_cast<double>(round + 1) / static_cast<double>(rounds_per_layer_);
-  const double steps = static_cast<double>(before) + share * (steps_[layer] - before);
+  const double steps = static_cast<double>(at.before) + share * (at.after - at.before);
   return HalvedBy(longest_ / kFirstSpacing, steps / static_cast<double>(layers_per_octave_));
 }
 
@@ -115,15 +128,31 @@ uint32_t FirstStepsFor(const Int3& extent, double typical_edge, uint64_t vertice
   return static_cast<uint32_t>(std::clamp(std::ceil(steps), 1.0, double{kMostFirstSteps}));
 }
 
+PartedSteps PartedStepsFor(const Int3& extent, double typical_edge, uint32_t first_steps,
+                           const CodecSettings& settings, uint64_t subtrees) {
+  if (settings.step_parts == 1 || settings.rounds_per_layer > 1 || first_steps == 1) return {};
+  // Tables and checksums take this many times as much for a layer as those of a single subtree.
+  const double cost = (3 + static_cast<double>(std::min<uint64_t>(subtrees, 1u << 20))) / 4;
+  const double per_octave = settings.layers_per_octave;
+  const double begin = first_steps + std::floor(Log2Exact(cost) * per_octave / 2);
+  const double octaves =
+      Log2Exact(std::max(Longest(extent) / kFirstSpacing / (kLeastParted * typical_edge), 1.0));
+  const double end = std::floor(octaves * per_octave);
+  if (!(begin < end)) return {};
+  return {static_cast<uint32_t>(begin), static_cast<uint32_t>(end), settings.step_parts};
+}
+
 uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
-                        Offsets offsets, uint32_t first_steps) {
+                        Offsets offsets, uint32_t first_steps, PartedSteps parted) {
   double least = offsets == Offsets::kLattice ? 1 : 2 * kUnitsPerTolerance;
   double finest = std::max(typical_edge / 2, least);
   double octaves = std::max(Log2Exact(Longest(extent) / finest), 0.0);
   const uint32_t steps = static_cast<uint32_t>(octaves * layers_per_octave) + 1;
   uint32_t layers = 2;
-  for (uint32_t done = first_steps; done < steps; ++layers) {
-    done = NextStep(done, first_steps, layers_per_octave);
+  for (uint32_t done = first_steps; done < steps;) {
+    const uint32_t next = NextStep(done, first_steps, layers_per_octave);
+    layers += PartsAfter(done, parted);
+    done = next;
   }
   return layers;
 }
@@ -198,8 +227,13 @@ std::vector<uint8_t> WriteParameters(const CodecParameters& parameters) {
     }
     ++key;
   });
-  for (uint32_t count : {parameters.schedule.split_layers(), parameters.schedule.refine_layers(),
-                         parameters.schedule.first_steps()}) {
+  const LayerSchedule& schedule = parameters.schedule;
+  std::vector<uint32_t> counts{schedule.split_layers(), schedule.refine_layers(),
+                               schedule.first_steps()};
+  if (parameters.settings.step_parts > 1) {
+    counts.insert(counts.end(), {schedule.parted().begin, schedule.parted().end});
+  }
+  for (uint32_t count : counts) {
     const auto stored = static_cast<uint16_t>(std::min(count, 0xffffu));
     Append(&bytes, &stored, sizeof stored);
   }
@@ -283,6 +317,12 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
   }
   const auto split_layers = fields.Take<uint16_t>(), refine_layers = fields.Take<uint16_t>();
   const auto first_steps = fields.Take<uint16_t>();
+  PartedSteps parted;
+  parted.parts = parameters.settings.step_parts;
+  if (parted.parts > 1) {
+    parted.begin = fields.Take<uint16_t>();
+    parted.end = fields.Take<uint16_t>();
+  }
   if (fields.left() > 0) parameters.exact = ReadExact(parameters.settings, &fields);
   if (fields.left() > 0) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder are longer than expected");
@@ -293,7 +333,8 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
   }
   uint32_t per_octave = parameters.settings.layers_per_octave;
   Offsets offsets = parameters.settings.offsets;
-  if (split_layers < 1 || split_layers > SplitLayersFor(extent, 0, per_octave, offsets) ||
+  if (split_layers < 1 ||
+      split_layers > SplitLayersFor(extent, 0, per_octave, offsets, 1, parted) ||
       refine_layers > RefineLayersFor(extent, 0, per_octave, offsets)) {
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: number of layers out of range");
   }
@@ -301,7 +342,7 @@ CodecParameters ReadParameters(std::span<const uint8_t> bytes, const Int3& exten
     throw Failure(ErrorKind::kCorrupt, "settings of the coder: steps of the first layer");
   }
   parameters.schedule = LayerSchedule(extent, per_octave, parameters.settings.rounds_per_layer,
-                                      split_layers, refine_layers, first_steps);
+                                      split_layers, refine_layers, first_steps, parted);
   return parameters;
 }
 

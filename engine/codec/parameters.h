@@ -21,6 +21,12 @@ namespace folprom {
 /// twice, with a little left for arithmetic.
 inline constexpr double kLeafBound = 30.5;
 
+/// Layers that begin after `begin` or more and before `end` steps are followed by others of the
+/// same step, `parts` together.
+struct PartedSteps {
+  uint32_t begin = 0, end = 0, parts = 1;
+};
+
 /// Layers 0 .. split_layers-1 split sets, the rest refine single vertices. The spacing below which
 /// sets wait falls by 2^(1/layers_per_octave) a step; in the last split layer nothing waits. The
 /// bound on a vertex's cell falls by the same factor a layer and ends at kLeafBound.
@@ -29,18 +35,25 @@ inline constexpr double kLeafBound = 30.5;
 /// steps until the vertices of a surface, which grow with the square of the spacing, have grown by
 /// as many as it had after the first layer: layers of a few vertices cost more to tell than they
 /// hold. first_steps = 1: a layer is a step.
+///
+/// Steps of a range are told in several layers each, which take equal shares of the sets.
 class LayerSchedule {
  public:
   LayerSchedule() = default;
   LayerSchedule(const Int3& extent, uint32_t layers_per_octave, uint32_t rounds_per_layer,
-                uint32_t split_layers, uint32_t refine_layers, uint32_t first_steps = 1);
+                uint32_t split_layers, uint32_t refine_layers, uint32_t first_steps = 1,
+                PartedSteps parted = {});
 
   uint32_t split_layers() const { return split_layers_; }
   uint32_t refine_layers() const { return refine_layers_; }
   uint32_t first_steps() const { return first_steps_; }
+  const PartedSteps& parted() const { return parted_; }
   uint32_t layers() const { return split_layers_ + refine_layers_; }
   uint32_t rounds(uint32_t layer) const;
   bool IsLastSplitLayer(uint32_t layer) const { return layer + 1 == split_layers_; }
+  /// Layers of its step that come after it, and whether any came before.
+  uint32_t parts_left(uint32_t layer) const { return Of(layer).parts_left; }
+  bool BeginsStep(uint32_t layer) const { return Of(layer).begins; }
   /// Sets whose spacing is at least this are split in this round; lattice units.
   double SplitSpacing(uint32_t layer, uint32_t round) const;
   /// Cells are halved until their bound per axis is at most this; lattice units. In split layers
@@ -50,10 +63,21 @@ class LayerSchedule {
   uint32_t LatticeShift(uint32_t layer) const;
 
  private:
+  struct SplitLayer {
+    uint32_t before = 0, after = 0;  ///< steps
+    uint32_t parts_left = 0;
+    bool begins = true;
+  };
+  /// Of the last split layer: a step of its own.
+  SplitLayer Of(uint32_t layer) const {
+    return layer < split_.size() ? split_[layer] : SplitLayer{};
+  }
+
   double longest_ = 1;
   uint32_t layers_per_octave_ = 1, rounds_per_layer_ = 1;
   uint32_t split_layers_ = 1, refine_layers_ = 0, first_steps_ = 1;
-  std::vector<uint32_t> steps_;  ///< done after each split layer but the last
+  PartedSteps parted_;
+  std::vector<SplitLayer> split_;  ///< all but the last
 };
 
 /// Most steps of a first layer.
@@ -63,11 +87,15 @@ inline constexpr uint32_t kMostFirstSteps = 255;
 uint32_t FirstStepsFor(const Int3& extent, double typical_edge, uint64_t vertices,
                        uint32_t least_layer, uint32_t layers_per_octave);
 
+/// Where parts of steps pay, of a file with so many subtrees.
+PartedSteps PartedStepsFor(const Int3& extent, double typical_edge, uint32_t first_steps,
+                           const CodecSettings& settings, uint64_t subtrees);
+
 /// Numbers of layers before empty ones are dropped, for vertices `typical_edge` lattice units apart
 /// (0: unknown). Sets and cells far from typical share the last split and the first refine layer
 /// instead of having many nearly empty ones.
 uint32_t SplitLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
-                        Offsets offsets, uint32_t first_steps = 1);
+                        Offsets offsets, uint32_t first_steps = 1, PartedSteps parted = {});
 uint32_t RefineLayersFor(const Int3& extent, double typical_edge, uint32_t layers_per_octave,
                          Offsets offsets);
 

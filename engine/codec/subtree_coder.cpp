@@ -82,7 +82,7 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
   const bool splits = layer_ < schedule.split_layers();
   if (splits) {
     for (uint32_t round = 0; round < schedule.rounds(layer_); ++round) {
-      CodeRound(coder, schedule.SplitSpacing(layer_, round), truth, meters);
+      CodeRound(coder, round, truth, meters);
     }
   }
   if (cylinder_children_ && !(splits && parameters_.settings.split_first)) {
@@ -127,33 +127,57 @@ void SubtreeCoder::CodeRoot(Coder& coder, SubtreeTruth* truth) {
 }
 
 template <class Coder>
-void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth,
-                             CostMeters* meters) {
-  coder.SetMeter(&meters->split);
-  const bool asking = due_.CodeAsking(coder, least_spacing, lod_, open_, truth);
+void SubtreeCoder::BeginStep(Coder& coder, double least_spacing, const SubtreeTruth* truth) {
+  asking_ = due_.CodeAsking(coder, least_spacing, lod_, open_, truth);
   if (grid_) OrderAlongSurface();
-  // Children that are still large enough join the end of the list and the same round.
-  size_t kept = 0;
-  for (size_t i = 0; i < open_.size(); ++i) {
+  waiting_ = 0;
+  large_ = 0;
+  if (parameters_.schedule.parts_left(layer_) == 0) return;
+  for (uint32_t set : open_) {
+    float& spacing = lod_.sets[set].spacing;
+    if (static_cast<double>(spacing) < least_spacing) continue;
+    spacing = static_cast<float>(lod_.Spacing(set));
+    if (static_cast<double>(spacing) >= least_spacing) ++large_;
+  }
+}
+
+template <class Coder>
+void SubtreeCoder::CodeRound(Coder& coder, uint32_t round, SubtreeTruth* truth,
+                             CostMeters* meters) {
+  const LayerSchedule& schedule = parameters_.schedule;
+  const double least_spacing = schedule.SplitSpacing(layer_, round);
+  coder.SetMeter(&meters->split);
+  if (schedule.BeginsStep(layer_)) BeginStep(coder, least_spacing, truth);
+  // A part of the step takes an equal share of the sets that are large enough. Children that are
+  // join the end of the list and the last part.
+  const uint32_t parts_left = schedule.parts_left(layer_);
+  const size_t share = parts_left == 0 ? SIZE_MAX : large_ / (parts_left + 1);
+  size_t kept = waiting_, i = waiting_, taken = 0;
+  for (; i < open_.size() && taken < share; ++i) {
     const uint32_t set = open_[i];
     SetRecord& record = lod_.sets[set];
     if (record.is_leaf) continue;
     // Spacings fall as neighbours split, so one that was too small before is not measured again.
     double spacing = static_cast<double>(record.spacing);
-    if (asking || spacing >= least_spacing) {
+    const bool was_large = spacing >= least_spacing;
+    if (was_large) ++taken;
+    if (asking_ || was_large) {
       spacing = lod_.Spacing(set);
-      if (!asking) record.spacing = static_cast<float>(spacing);
+      record.spacing = static_cast<float>(spacing);
     }
     coder.SetMeter(&meters->split);
-    const bool is_due = asking && lod_.size() > 1 ? due_.CodeDue(coder, lod_, set, spacing, truth)
-                                                  : asking || spacing >= least_spacing;
+    const bool is_due = asking_ && lod_.size() > 1 ? due_.CodeDue(coder, lod_, set, spacing, truth)
+                                                   : asking_ || spacing >= least_spacing;
     if (is_due) {
       CodeSet(coder, set, spacing, truth, meters);
     } else {
       open_[kept++] = set;
     }
   }
-  open_.resize(kept);
+  open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(kept),
+              open_.begin() + static_cast<std::ptrdiff_t>(i));
+  waiting_ = kept;
+  large_ -= std::min(taken, large_);
 }
 
 void SubtreeCoder::OrderAlongSurface() {
@@ -332,7 +356,10 @@ void SubtreeCoder::CodePrecision(Coder& coder, const SubtreeTruth* truth) {
 
 template <class Coder>
 void SubtreeCoder::CodeLatticeRefinement(Coder& coder, const SubtreeTruth* truth) {
-  for (uint32_t vertex = 0; vertex < lod_.size(); ++vertex) {
+  if (parameters_.schedule.BeginsStep(layer_)) refined_ = 0;
+  const size_t parts = parameters_.schedule.parts_left(layer_) + size_t{1};
+  for (const size_t end = refined_ + (lod_.size() - refined_) / parts; refined_ < end; ++refined_) {
+    const auto vertex = static_cast<uint32_t>(refined_);
     if (!lattice_coder_->IsCoarser(vertex, precision_.precision())) continue;
     Int3 position;
     if constexpr (Coder::kEncoding) position = truth->VertexPosition(vertex);

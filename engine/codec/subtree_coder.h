@@ -66,7 +66,9 @@ class SubtreeCoder {
   void CodeRoot(Coder& coder, SubtreeTruth* truth);
   /// Splits the sets that are due down to `least_spacing`; 0: all.
   template <class Coder>
-  void CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth, CostMeters* meters);
+  void CodeRound(Coder& coder, uint32_t round, SubtreeTruth* truth, CostMeters* meters);
+  template <class Coder>
+  void BeginStep(Coder& coder, double least_spacing, const SubtreeTruth* truth);
   /// Sets in an order in which each has neighbours before it.
   void OrderAlongSurface();
   /// Is a single vertex or is split.
@@ -104,6 +106,11 @@ class SubtreeCoder {
   SubtreeLod lod_;
   std::vector<ExactPosition> exact_positions_;
   std::vector<uint32_t> open_;
+  // Of the step under way.
+  size_t waiting_ = 0;  ///< the first so many of open_ are not due
+  size_t large_ = 0;    ///< so many behind them were large enough when it began
+  bool asking_ = false;
+  size_t refined_ = 0;  ///< the first so many vertices have the precision of this step
 
   SplitCoder split_coder_;
   // One of the two, as settings.offsets says; grid_ with the first, where sets come from grids.

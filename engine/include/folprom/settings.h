@@ -74,6 +74,8 @@ struct CodecSettings {
   uint32_t layers_per_octave = 4;  ///< layers per halving of the spacing; 1 .. 8
   /// Vertices that a layer is expected to add; smaller ones are joined. 0 .. 1000000; 0: none.
   uint32_t least_layer = 100;
+  /// Most layers that a step is, where rounds_per_layer is 1; 1 .. 8.
+  uint32_t step_parts = 4;
   uint32_t rounds_per_layer = 1;  ///< largest spacing first, in this many steps a layer; 1 .. 16
 
   // Effort

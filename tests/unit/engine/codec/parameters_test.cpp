@@ -24,7 +24,8 @@ CodecParameters Some() {
   parameters.settings.distortion_first = 0.25;
   parameters.settings.layers_per_octave = 3;
   parameters.settings = WithEffort(parameters.settings, 8);
-  parameters.schedule = LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4, 5);
+  parameters.schedule =
+      LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4, 5, {6, 8, 4});
   return parameters;
 }
 
@@ -53,6 +54,9 @@ TEST(CodecParameters, ComeBackFromTheirBytes) {
   EXPECT_EQ(read.schedule.split_layers(), 9u);
   EXPECT_EQ(read.schedule.refine_layers(), 4u);
   EXPECT_EQ(read.schedule.first_steps(), 5u);
+  EXPECT_EQ(read.schedule.parted().begin, 6u);
+  EXPECT_EQ(read.schedule.parted().end, 8u);
+  EXPECT_EQ(read.schedule.parted().parts, 4u);
   EXPECT_EQ(WriteParameters(read), WriteParameters(Some()));
 }
 
@@ -166,6 +170,53 @@ TEST(LayerSchedule, JoinsLayersOfFewVerticesUntilAStepAddsEnough) {
     // Never more than a step more than that takes.
     EXPECT_LT(vertices(layer), (vertices(layer - 1) + vertices(0)) * 1.4143) << layer;
   }
+}
+
+TEST(LayerSchedule, TellsAStepInPartsOfTheSameSpacing) {
+  constexpr uint32_t kPerOctave = 4;
+  const PartedSteps parted{6, 9, 3};
+  const LayerSchedule whole(kExtent, kPerOctave, 1, 14, 2, 5);
+  const LayerSchedule parts(kExtent, kPerOctave, 1, 14, 2, 5, parted);
+  std::vector<double> spacings;
+  for (uint32_t layer = 0; layer + 1 < parts.split_layers(); ++layer) {
+    const double spacing = parts.SplitSpacing(layer, 0);
+    if (parts.BeginsStep(layer)) {
+      spacings.push_back(spacing);
+    } else {
+      EXPECT_EQ(spacing, spacings.back());
+      EXPECT_EQ(parts.parts_left(layer) + 1, parts.parts_left(layer - 1));
+    }
+  }
+  for (size_t i = 0; i < spacings.size(); ++i) {
+    EXPECT_EQ(spacings[i], whole.SplitSpacing(static_cast<uint32_t>(i), 0));
+  }
+  EXPECT_TRUE(parts.BeginsStep(parts.split_layers() - 1));
+  EXPECT_EQ(parts.parts_left(parts.split_layers() - 1), 0u);
+  EXPECT_EQ(parts.SplitSpacing(parts.split_layers() - 1, 0), 0);
+}
+
+TEST(LayerSchedule, PartsStepsFromTheFirstLayerToTheTypicalEdge) {
+  CodecSettings settings;
+  const uint32_t first = FirstStepsFor(kExtent, 100, 20000, 100, 4);
+  const PartedSteps one = PartedStepsFor(kExtent, 100, first, settings, 1);
+  const PartedSteps many = PartedStepsFor(kExtent, 100, first, settings, 40);
+  EXPECT_EQ(one.begin, first);
+  EXPECT_EQ(one.parts, settings.step_parts);
+  EXPECT_GT(many.begin, one.begin);
+  EXPECT_EQ(many.end, one.end);
+  const uint32_t split = SplitLayersFor(kExtent, 100, 4, Offsets::kLattice, first, one);
+  EXPECT_GT(split, SplitLayersFor(kExtent, 100, 4, Offsets::kLattice, first));
+  const LayerSchedule schedule(kExtent, 4, 1, split, 0, first, one);
+  for (uint32_t layer = 1; layer + 1 < split; ++layer) {
+    if (schedule.parts_left(layer) > 0) {
+      EXPECT_GE(schedule.SplitSpacing(layer, 0), 100 / 1.19);
+    }
+  }
+  CodecSettings off = settings;
+  off.step_parts = 1;
+  EXPECT_EQ(PartedStepsFor(kExtent, 100, first, off, 1).parts, 1u);
+  settings.rounds_per_layer = 2;
+  EXPECT_EQ(PartedStepsFor(kExtent, 100, first, settings, 1).parts, 1u);
 }
 
 TEST(LayerSchedule, BeginsWithOneStepWhereSizesAreUnknown) {

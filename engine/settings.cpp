@@ -69,8 +69,8 @@ constexpr SettingKey kKeys[] = {
      "models start from what other meshes taught them, with offsets = \"lattice\"; false: from "
      "nothing",
      ""},
-    {"layers_per_octave", &S::layers_per_octave, "layers per halving of the vertex spacing",
-     "layers", 1, 8},
+    {"layers_per_octave", &S::layers_per_octave, "steps per halving of the vertex spacing", "steps",
+     1, 8},
     {"least_layer", &S::least_layer,
      "vertices that a layer is expected to add; smaller ones are joined; 0: none are", "vertices",
      0, 1000000},
@@ -78,10 +78,12 @@ constexpr SettingKey kKeys[] = {
      "most layers that a step of the spacing is; as many as pay for what the table says of a layer",
      "layers", 1, 8},
     {"rounds_per_layer", &S::rounds_per_layer,
-     "steps in which a layer works down from its largest spacing", "rounds", 1, 16},
+     "rounds in which a step works down from its largest spacing, where sets are not split by "
+     "distortion; at least one a layer",
+     "rounds", 1, 16},
     {"effort", &S::effort,
-     "1 fastest .. 9 smallest: sets subtree_vertices, density_step and mixers where they are not "
-     "given beside it",
+     "1 fastest .. 9 smallest: sets subtree_vertices, density_step, mixers, step_parts, "
+     "length_weight and distortion_first where they are not given beside it",
      "", 1, 9},
     {"density_step", &S::density_step,
      "between cells of the density over the tangent plane, with offsets = \"lattice\"; 0: none",
@@ -126,20 +128,27 @@ std::span<const SettingKey> SettingKeys() { return kKeys; }
 
 CodecSettings WithEffort(CodecSettings settings, uint32_t effort) {
   struct Preset {
-    uint32_t density_step, mixers, subtree_vertices;
+    uint32_t density_step, mixers, subtree_vertices, step_parts;
+    double length_weight, distortion_first;
   };
   // Measured in tests/bench/RESULTS.md. Small subtrees are faster for they fit into the caches,
-  // large ones smaller for they have fewer seams and models learn longer.
+  // large ones smaller for they have fewer seams and models learn longer. The last looks at the
+  // whole file alone: rings are even, and no early layer is told set by set.
   constexpr uint32_t k = 1024;
-  constexpr Preset kPresets[] = {{0, 1, 16 * k},  {0, 1, 32 * k},  {4, 1, 32 * k},
-                                 {3, 1, 64 * k},  {2, 1, 64 * k},  {2, 2, 128 * k},
-                                 {1, 2, 128 * k}, {1, 2, 256 * k}, {1, 2, 1024 * k}};
+  constexpr Preset kPresets[] = {{0, 1, 32 * k, 4, 0.01, 0.05},  {4, 1, 32 * k, 4, 0.01, 0.05},
+                                 {4, 1, 64 * k, 4, 0.01, 0.05},  {3, 2, 64 * k, 4, 0.01, 0.05},
+                                 {2, 2, 128 * k, 4, 0.01, 0.05}, {2, 2, 256 * k, 4, 0.01, 0.05},
+                                 {1, 2, 256 * k, 4, 0.01, 0.05}, {1, 2, 512 * k, 4, 0.03, 0.05},
+                                 {1, 2, 1024 * k, 1, 0.06, 0}};
   settings.effort = effort;
   if (effort < 1 || effort > std::size(kPresets)) return settings;
   const Preset& preset = kPresets[effort - 1];
   settings.density_step = preset.density_step;
   settings.mixers = preset.mixers;
   settings.subtree_vertices = preset.subtree_vertices;
+  settings.step_parts = preset.step_parts;
+  settings.length_weight = preset.length_weight;
+  settings.distortion_first = preset.distortion_first;
   return settings;
 }
 

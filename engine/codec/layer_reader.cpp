@@ -57,9 +57,9 @@ CodecParameters ParametersOf(const io::FileTable& table, size_t layers_total) {
       ReadParameters(table.codec, {table.extent[0], table.extent[1], table.extent[2]});
   if (parameters.exact) CompleteExact(table, &*parameters.exact);
   if (parameters.schedule.layers() != layers_total) {
-    throw Failure(ErrorKind::kCorrupt,
-                  "the coder's settings announce " + std::to_string(parameters.schedule.layers()) +
-                      " layers, the table " + std::to_string(layers_total));
+    throw Failure(ErrorKind::kCorrupt, "the coder's settings announce " +
+                                           std::to_string(parameters.schedule.layers()) +
+                                           " layers, the table " + std::to_string(layers_total));
   }
   for (size_t s = 0; s < table.subtrees.size(); ++s) {
     if (table.subtrees[s].vertices <= parameters.settings.subtree_vertices) continue;

@@ -75,9 +75,9 @@ LayerSchedule::LayerSchedule(const Int3& extent, uint32_t layers_per_octave,
       parted_(parted) {
   uint32_t done = 0, next = first_steps;
   while (split_.size() + 1 < split_layers && split_.size() < kMostSteps) {
-    uint32_t left = PartsAfter(done, parted);
-    for (bool begins = true; left > 0 && split_.size() + 1 < split_layers; begins = false) {
-      split_.push_back({done, next, --left, begins});
+    const uint32_t parts = PartsAfter(done, parted);
+    for (uint32_t part = 0; part < parts && split_.size() + 1 < split_layers; ++part) {
+      split_.push_back({done, next, part, parts});
     }
     done = next;
     next = NextStep(done, first_steps, layers_per_octave);
@@ -85,20 +85,19 @@ LayerSchedule::LayerSchedule(const Int3& extent, uint32_t layers_per_octave,
 }
 
 uint32_t LayerSchedule::rounds(uint32_t layer) const {
-  return layer < split_layers_ && !IsLastSplitLayer(layer) ? rounds_per_layer_ : 1;
+  if (layer >= split_layers_ || IsLastSplitLayer(layer)) return 1;
+  return std::max(rounds_per_layer_ / Of(layer).parts, 1u);
 }
 
-double LayerSchedule::SplitSpacing(uint32_t layer, uint32_t round) const {
+double LayerSchedule::SplitSpacing(uint32_t layer) const {
   if (IsLastSplitLayer(layer)) return 0;
-  const SplitLayer& at = split_[layer];
-  const double share = static_cast<double>(round + 1) / static_cast<double>(rounds_per_layer_);
-  const double steps = static_cast<double>(at.before) + share * (at.after - at.before);
-  return HalvedBy(longest_ / kFirstSpacing, steps / static_cast<double>(layers_per_octave_));
+  return HalvedBy(longest_ / kFirstSpacing,
+                  static_cast<double>(Of(layer).after) / static_cast<double>(layers_per_octave_));
 }
 
 double LayerSchedule::RefineBound(uint32_t layer) const {
   if (layer < split_layers_) {
-    return std::max(kLeafBound, SplitSpacing(layer, rounds(layer) - 1) / kCellsPerSpacing);
+    return std::max(kLeafBound, SplitSpacing(layer) / kCellsPerSpacing);
   }
   double bound = kLeafBound;
   uint32_t steps = layers() - 1 - layer;
@@ -112,10 +111,7 @@ uint32_t LayerSchedule::LatticeShift(uint32_t layer) const {
   if (layer >= split_layers_) return layers() - 1 - layer;
   // The last split layer has no spacing of its own.
   uint32_t measured = IsLastSplitLayer(layer) && layer > 0 ? layer - 1 : layer;
-  double spacing = measured == layer && IsLastSplitLayer(layer)
-                       ? 0
-                       : SplitSpacing(measured, rounds(measured) - 1);
-  auto cells = static_cast<uint64_t>(spacing / kLatticeCellsPerSpacing);
+  auto cells = static_cast<uint64_t>(SplitSpacing(measured) / kLatticeCellsPerSpacing);
   return cells < 2 ? 0 : static_cast<uint32_t>(std::bit_width(cells)) - 1;
 }
 
@@ -130,7 +126,7 @@ uint32_t FirstStepsFor(const Int3& extent, double typical_edge, uint64_t vertice
 
 PartedSteps PartedStepsFor(const Int3& extent, double typical_edge, uint32_t first_steps,
                            const CodecSettings& settings, uint64_t subtrees) {
-  if (settings.step_parts == 1 || settings.rounds_per_layer > 1 || first_steps == 1) return {};
+  if (settings.step_parts == 1 || first_steps == 1) return {};
   // Tables and checksums take this many times as much for a layer as those of a single subtree.
   const double cost = (3 + static_cast<double>(std::min<uint64_t>(subtrees, 1u << 20))) / 4;
   const double per_octave = settings.layers_per_octave;

@@ -36,7 +36,9 @@ struct PartedSteps {
 /// as many as it had after the first layer: layers of a few vertices cost more to tell than they
 /// hold. first_steps = 1: a layer is a step.
 ///
-/// Steps of a range are told in several layers each, which take equal shares of the sets.
+/// Steps of a range are told in several layers each. A step works down from its largest spacing in
+/// rounds, at least one a layer, to each of which it leaves as many sets as to the others; one that
+/// asks which sets are due asks once, and its layers take equal shares of the sets.
 class LayerSchedule {
  public:
   LayerSchedule() = default;
@@ -49,13 +51,13 @@ class LayerSchedule {
   uint32_t first_steps() const { return first_steps_; }
   const PartedSteps& parted() const { return parted_; }
   uint32_t layers() const { return split_layers_ + refine_layers_; }
-  uint32_t rounds(uint32_t layer) const;
+  uint32_t rounds(uint32_t layer) const;  ///< where the step does not ask
   bool IsLastSplitLayer(uint32_t layer) const { return layer + 1 == split_layers_; }
   /// Layers of its step that come after it, and whether any came before.
-  uint32_t parts_left(uint32_t layer) const { return Of(layer).parts_left; }
-  bool BeginsStep(uint32_t layer) const { return Of(layer).begins; }
-  /// Sets whose spacing is at least this are split in this round; lattice units.
-  double SplitSpacing(uint32_t layer, uint32_t round) const;
+  uint32_t parts_left(uint32_t layer) const { return Of(layer).parts - 1 - Of(layer).part; }
+  bool BeginsStep(uint32_t layer) const { return Of(layer).part == 0; }
+  /// Sets whose spacing is at least this are split by the end of the step; lattice units.
+  double SplitSpacing(uint32_t layer) const;
   /// Cells are halved until their bound per axis is at most this; lattice units. In split layers
   /// (settings.split_first off) it follows the spacing.
   double RefineBound(uint32_t layer) const;
@@ -65,8 +67,7 @@ class LayerSchedule {
  private:
   struct SplitLayer {
     uint32_t before = 0, after = 0;  ///< steps
-    uint32_t parts_left = 0;
-    bool begins = true;
+    uint32_t part = 0, parts = 1;    ///< of these
   };
   /// Of the last split layer: a step of its own.
   SplitLayer Of(uint32_t layer) const {

@@ -64,11 +64,20 @@ class SubtreeCoder {
  private:
   template <class Coder>
   void CodeRoot(Coder& coder, SubtreeTruth* truth);
-  /// Splits the sets that are due down to `least_spacing`; 0: all.
+  /// The splits of a layer.
   template <class Coder>
-  void CodeRound(Coder& coder, uint32_t round, SubtreeTruth* truth, CostMeters* meters);
+  void CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
+  /// Splits sets down to a spacing; 0: all.
   template <class Coder>
-  void BeginStep(Coder& coder, double least_spacing, const SubtreeTruth* truth);
+  void CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth, CostMeters* meters);
+  void BeginRounds(double least_spacing);
+  void BeginShares(double least_spacing);
+  /// Asks the layer's share of the open sets whether they are split.
+  template <class Coder>
+  void CodeShare(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
+  /// Asks the set, and those that it is split into.
+  template <class Coder>
+  void AskFamily(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters);
   /// Sets in an order in which each has neighbours before it.
   void OrderAlongSurface();
   /// Is a single vertex or is split.
@@ -107,9 +116,14 @@ class SubtreeCoder {
   std::vector<ExactPosition> exact_positions_;
   std::vector<uint32_t> open_;
   // Of the step under way.
-  size_t waiting_ = 0;  ///< the first so many of open_ are not due
-  size_t large_ = 0;    ///< so many behind them were large enough when it began
   bool asking_ = false;
+  std::vector<double> round_spacings_;  ///< of the rounds that are left, the last first
+  struct Share {
+    size_t waiting = 0;       ///< the first so many of open_ were asked
+    std::vector<bool> large;  ///< were those behind them large enough when the step began
+  };
+  Share share_;
+  std::vector<uint32_t> family_, asked_;  // scratch
   size_t refined_ = 0;  ///< the first so many vertices have the precision of this step
 
   SplitCoder split_coder_;

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "io/container/file_table.h"
+#include "io/container/row_code.h"
 
 namespace folprom::io {
 namespace {
@@ -48,67 +49,37 @@ void ForRow(Sizes& sizes, size_t layer, size_t part, size_t subtrees, const Code
   }
 }
 
-/// Length of the exponential Golomb code of order k.
-int CodeBits(uint64_t code, int k) { return 2 * BitWidth(code + (uint64_t{1} << k)) - 1 - k; }
-
-/// Order that makes the row shortest, the smallest of several.
-int BestOrder(std::span<const uint64_t> codes) {
-  int best = 0;
-  uint64_t best_bits = UINT64_MAX;
-  for (int k = 0; k < 1 << kRowParameterBits; ++k) {
-    uint64_t bits = 0;
-    for (const uint64_t code : codes) bits += static_cast<uint64_t>(CodeBits(code, k));
-    if (bits >= best_bits) continue;
-    best_bits = bits;
-    best = k;
-  }
-  return best;
-}
-
-void WriteCode(uint64_t code, int k, BitWriter* bits) {
-  const uint64_t shifted = code + (uint64_t{1} << k);
-  const int width = BitWidth(shifted);
-  bits->Bits(0, width - 1 - k);
-  bits->Bits(shifted, width);
-}
-
-uint64_t ReadCode(int k, BitReader* bits) {
-  const int width = k + bits->Zeros(34 - k);
-  return ((uint64_t{1} << width) | bits->Bits(width)) - (uint64_t{1} << k);
-}
-
 }  // namespace
 
-void WriteSizes(std::span<const uint64_t> sizes, const SizeGrid& grid, ByteWriter* out) {
-  BitWriter bits(out);
+void WriteSizes(std::span<const uint64_t> sizes, const SizeGrid& grid, BitWriter* bits) {
   std::vector<uint64_t> codes;
   const size_t known = grid.subtrees == 0 ? 0 : sizes.size() / (grid.subtrees * 2) - grid.layers;
-  for (size_t row = 0; row < grid.parts() * grid.layers; ++row) {
+  for (size_t part = 0; part < grid.parts(); ++part) {
     codes.clear();
-    ForRow(sizes, known + row / grid.parts(), row % grid.parts(), grid.subtrees,
-           [&](uint64_t prediction, uint64_t size) { codes.push_back(ZigZag(size - prediction)); });
-    const int k = BestOrder(codes);
-    bits.Bits(static_cast<uint64_t>(k), kRowParameterBits);
-    for (const uint64_t code : codes) WriteCode(code, k, &bits);
+    for (size_t layer = known; layer < known + grid.layers; ++layer) {
+      ForRow(sizes, layer, part, grid.subtrees, [&](uint64_t prediction, uint64_t size) {
+        codes.push_back(ZigZag(size - prediction));
+      });
+    }
+    WriteRow(codes, bits);
   }
-  bits.Finish();
 }
 
-void ReadSizes(const SizeGrid& grid, ByteReader* in, std::vector<uint64_t>* sizes) {
+void ReadSizes(const SizeGrid& grid, const ByteReader& in, BitReader* bits,
+               std::vector<uint64_t>* sizes) {
   const size_t known = grid.subtrees == 0 ? 0 : sizes->size() / (grid.subtrees * 2);
   sizes->resize((known + grid.layers) * grid.subtrees * 2);
-  BitReader bits(in);
-  for (size_t row = 0; row < grid.parts() * grid.layers; ++row) {
-    const int k = static_cast<int>(bits.Bits(kRowParameterBits));
-    ForRow(*sizes, known + row / grid.parts(), row % grid.parts(), grid.subtrees,
-           [&](uint64_t prediction, uint64_t& size) {
-             const uint64_t code = ReadCode(k, &bits);
-             if (code > kLargestCode) in->Fail("segment size beyond 32 bits");
-             size = prediction + UnZigZag(code);
-             if (size > kMaxSegmentBytes) in->Fail("segment size negative or beyond 32 bits");
-           });
+  for (size_t part = 0; part < grid.parts(); ++part) {
+    const int order = ReadOrder(bits);
+    for (size_t layer = known; layer < known + grid.layers; ++layer) {
+      ForRow(*sizes, layer, part, grid.subtrees, [&](uint64_t prediction, uint64_t& size) {
+        const uint64_t code = ReadNumber(order, bits);
+        if (code > kLargestCode) in.Fail("segment size beyond 32 bits");
+        size = prediction + UnZigZag(code);
+        if (size > kMaxSegmentBytes) in.Fail("segment size negative or beyond 32 bits");
+      });
+    }
   }
-  bits.Finish();
 }
 
 }  // namespace folprom::io

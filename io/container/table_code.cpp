@@ -1,54 +1,77 @@
 #include "io/container/table_code.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cfloat>
 #include <cmath>
 
 #include "folprom/result.h"
 #include "io/container/byte_code.h"
+#include "io/container/row_code.h"
 #include "io/container/size_code.h"
 
 namespace folprom::io {
 namespace {
 
 constexpr uint64_t kMaxCoordinate = (uint64_t{1} << 30) - 1;
-// Fewest bytes of a record: three varints; varint, box of six, neighbour count.
-constexpr uint64_t kLeastLayerBytes = 3;
+/// Fewest bytes of a record: varint, box of six, neighbour count.
 constexpr uint64_t kLeastSubtreeBytes = 8;
+
+/// What so many layers take at least: a bit for each of three numbers, and the orders of the rows.
+uint64_t LayerBits(uint64_t layers) { return 3 * (layers + kRowParameterBits); }
 
 /// The lower half of an error bound is 0.
 uint64_t UpperHalf(float error_bound) { return std::bit_cast<uint32_t>(error_bound) >> 16; }
 
-void WriteLayers(const FileTable& table, size_t begin, size_t end, ByteWriter* out) {
-  LayerRecord before;
-  if (begin > 0) before = table.layers[begin - 1];
-  for (size_t i = begin; i < end; ++i) {
-    const LayerRecord& layer = table.layers[i];
-    out->Varint(ZigZag(UpperHalf(layer.error_bound) - UpperHalf(before.error_bound)));
-    const uint64_t more_vertices = layer.vertices - before.vertices;
-    out->Varint(more_vertices);
-    // A closed surface has twice as many faces as vertices.
-    out->Varint(ZigZag(layer.faces - before.faces - 2 * more_vertices));
-    before = layer;
-  }
+LayerRecord Before(const FileTable& table, size_t layer) {
+  return layer == 0 ? LayerRecord{} : table.layers[layer - 1];
+}
+/// Vertices by which the layer before grew.
+uint64_t GrowthBefore(const FileTable& table, size_t layer) {
+  return layer == 0 ? 0 : table.layers[layer - 1].vertices - Before(table, layer - 1).vertices;
 }
 
-void ReadLayers(size_t count, ByteReader* in, FileTable* table) {
-  LayerRecord before;
-  if (!table->layers.empty()) before = table->layers.back();
-  for (size_t i = 0; i < count; ++i) {
-    LayerRecord layer;
-    const uint64_t upper = UpperHalf(before.error_bound) + UnZigZag(in->Varint());
-    if (upper > 0xffff) in->Fail("error bound of more bits than a float has");
-    layer.error_bound = std::bit_cast<float>(static_cast<uint32_t>(upper) << 16);
-    const uint64_t more_vertices =
-        in->VarintUpTo(table->vertices - before.vertices, "growth of a layer's vertices");
-    layer.vertices = before.vertices + more_vertices;
-    layer.faces = before.faces + 2 * more_vertices + UnZigZag(in->Varint());
-    if (layer.faces > kMaxCount) in->Fail("number of a layer's faces negative or beyond 2^48");
-    table->layers.push_back(layer);
-    before = layer;
+void WriteLayers(const FileTable& table, size_t begin, size_t end, BitWriter* bits) {
+  std::array<std::vector<uint64_t>, 3> rows;
+  for (size_t i = begin; i < end; ++i) {
+    const LayerRecord &layer = table.layers[i], before = Before(table, i);
+    const uint64_t growth = layer.vertices - before.vertices;
+    rows[0].push_back(ZigZag(UpperHalf(layer.error_bound) - UpperHalf(before.error_bound)));
+    rows[1].push_back(ZigZag(growth - GrowthBefore(table, i)));
+    // A closed surface has twice as many faces as vertices.
+    rows[2].push_back(ZigZag(layer.faces - before.faces - 2 * growth));
+  }
+  for (const auto& row : rows) WriteRow(row, bits);
+}
+
+void ReadLayers(size_t count, const ByteReader& in, BitReader* bits, FileTable* table) {
+  const size_t begin = table->layers.size();
+  table->layers.resize(begin + count);
+  int order = ReadOrder(bits);
+  for (size_t i = begin; i < begin + count; ++i) {
+    const uint64_t upper =
+        UpperHalf(Before(*table, i).error_bound) + UnZigZag(ReadNumber(order, bits));
+    if (upper > 0xffff) in.Fail("error bound of more bits than a float has");
+    table->layers[i].error_bound = std::bit_cast<float>(static_cast<uint32_t>(upper) << 16);
+  }
+  order = ReadOrder(bits);
+  for (size_t i = begin; i < begin + count; ++i) {
+    const uint64_t left = table->vertices - Before(*table, i).vertices;
+    const uint64_t growth = GrowthBefore(*table, i) + UnZigZag(ReadNumber(order, bits));
+    if (growth > left) {
+      in.Fail("growth of a layer's vertices is " + std::to_string(growth) + ", at most " +
+              std::to_string(left));
+    }
+    table->layers[i].vertices = Before(*table, i).vertices + growth;
+  }
+  order = ReadOrder(bits);
+  for (size_t i = begin; i < begin + count; ++i) {
+    LayerRecord& layer = table->layers[i];
+    const LayerRecord before = Before(*table, i);
+    layer.faces =
+        before.faces + 2 * (layer.vertices - before.vertices) + UnZigZag(ReadNumber(order, bits));
+    if (layer.faces > kMaxCount) in.Fail("number of a layer's faces negative or beyond 2^48");
   }
 }
 
@@ -158,16 +181,18 @@ std::vector<CodedTable> EncodeTables(const FileTable& table) {
     ByteWriter out;
     if (i == 0) WriteMesh(table, &out);
     out.Varint(count);
-    WriteLayers(table, begin, ends[i], &out);
+    BitWriter bits(&out);
+    WriteLayers(table, begin, ends[i], &bits);
     const auto sizes = std::span(table.segment_bytes).first(ends[i] * table.subtrees.size() * 2);
-    WriteSizes(sizes, GridOf(table, count), &out);
+    WriteSizes(sizes, GridOf(table, count), &bits);
+    bits.Finish();
     if (i + 1 < ends.size()) {
       out.Varint(tables[i + 1].bytes.size());
     } else {
       out.F64(table.tolerance);
       out.U64(table.digest.vertices);
       out.U64(table.digest.faces);
-      for (const uint64_t bits : table.kind_bits) out.Varint(bits);
+      for (const uint64_t kind : table.kind_bits) out.Varint(kind);
     }
     tables[i] = {ends[i], std::move(out).Take()};
   }
@@ -227,13 +252,14 @@ void TableDecoder::DecodeLayers(ByteReader* in) {
   const size_t left = layers_total_ - table_.layers.size();
   const uint64_t count = in->VarintUpTo(left, "number of layers of a table");
   if (count == 0 && left > 0) in->Fail("a table of no layer");
-  if (count * kLeastLayerBytes > in->left()) in->Fail("more layers than bytes left");
-  ReadLayers(count, in, &table_);
   const SizeGrid grid = GridOf(table_, count);
-  if (grid.LeastBits() > uint64_t{8} * in->left()) {
-    in->Fail("fewer bytes left than the segment sizes need");
+  if (LayerBits(count) + grid.LeastBits() > uint64_t{8} * in->left()) {
+    in->Fail("fewer bytes left than the layers and segment sizes need");
   }
-  ReadSizes(grid, in, &table_.segment_bytes);
+  BitReader bits(in);
+  ReadLayers(count, *in, &bits, &table_);
+  ReadSizes(grid, *in, &bits, &table_.segment_bytes);
+  bits.Finish();
 }
 
 }  // namespace folprom::io

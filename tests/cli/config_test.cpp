@@ -168,7 +168,7 @@ TEST_F(Config, KeysWinOverTheEffortOfTheFileAndTheFlagOverBoth) {
   const toml::table from_file = codec({});
   EXPECT_EQ(from_file["effort"].value<int>(), 1);
   EXPECT_EQ(from_file["density_step"].value<int>(), 3);
-  EXPECT_EQ(from_file["subtree_vertices"].value<int>(), 16384);
+  EXPECT_EQ(from_file["subtree_vertices"].value<int>(), 32768);
   const toml::table with_flag = codec({"--effort", "9"});
   EXPECT_EQ(with_flag["effort"].value<int>(), 9);
   EXPECT_EQ(with_flag["density_step"].value<int>(), 1);

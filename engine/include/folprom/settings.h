@@ -31,7 +31,7 @@ struct CodecSettings {
   Hierarchy hierarchy = Hierarchy::kQuadric;
   Offsets offsets = Offsets::kLattice;
 
-  uint32_t subtree_vertices = 65536;  ///< largest subtree; 1 .. 16,777,216
+  uint32_t subtree_vertices = 131072;  ///< largest subtree; 1 .. 16,777,216
   /// Subtrees are cut by the metric of section 2.1. false: by Euclidean distance, which makes them
   /// compact: on dragon half the cross faces, 60 % fewer bits for seams, 0.7 % fewer in all.
   bool subtree_normals = false;
@@ -71,12 +71,12 @@ struct CodecSettings {
   bool trained = true;
 
   // Layers
-  uint32_t layers_per_octave = 4;  ///< layers per halving of the spacing; 1 .. 8
+  uint32_t layers_per_octave = 4;  ///< steps per halving of the spacing; 1 .. 8
   /// Vertices that a layer is expected to add; smaller ones are joined. 0 .. 1000000; 0: none.
   uint32_t least_layer = 100;
-  /// Most layers that a step is, where rounds_per_layer is 1; 1 .. 8.
-  uint32_t step_parts = 4;
-  uint32_t rounds_per_layer = 1;  ///< largest spacing first, in this many steps a layer; 1 .. 16
+  uint32_t step_parts = 4;  ///< most layers that a step is; 1 .. 8
+  /// Largest spacing first, in this many rounds a step, at least one a layer; 1 .. 16.
+  uint32_t rounds_per_layer = 4;
 
   // Effort
   /// 1 fastest .. 9 smallest. A record of what WithEffort was asked for; it decides nothing itself.
@@ -84,11 +84,12 @@ struct CodecSettings {
   /// Offsets::kLattice: between cells of the density of new vertices over the tangent plane, in
   /// twentieths of the spacing; 1 .. 4, 0: no density.
   uint32_t density_step = 2;
-  uint32_t mixers = 1;  ///< Offsets::kLattice: how many mixers a decision averages; 1 .. 2
+  uint32_t mixers = 2;  ///< Offsets::kLattice: how many mixers a decision averages; 1 .. 2
 };
 
 /// The settings with those that effort (1 .. 9, others are left to CheckSettings) stands for:
-/// subtree_vertices, density_step, mixers, and effort itself.
+/// subtree_vertices, density_step, mixers, step_parts, length_weight, distortion_first, and effort
+/// itself.
 CodecSettings WithEffort(CodecSettings settings, uint32_t effort);
 
 /// kUsage with the name of the first field out of its range.

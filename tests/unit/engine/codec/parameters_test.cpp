@@ -21,9 +21,9 @@ CodecParameters Some() {
   parameters.settings.metric_b = 3.5;
   parameters.settings.split_first = false;
   parameters.settings.representative = Representative::kCentre;
-  parameters.settings.distortion_first = 0.25;
   parameters.settings.layers_per_octave = 3;
   parameters.settings = WithEffort(parameters.settings, 8);
+  parameters.settings.distortion_first = 0.25;
   parameters.schedule =
       LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4, 5, {6, 8, 4});
   return parameters;
@@ -135,10 +135,8 @@ TEST(LayerSchedule, FallsFromLayerToLayerToTheLeafBound) {
         double spacing = 2e9, bound = 2e9;
         for (uint32_t layer = 0; layer < schedule.layers(); ++layer) {
           if (layer < schedule.split_layers()) {
-            for (uint32_t round = 0; round < schedule.rounds(layer); ++round) {
-              EXPECT_LT(schedule.SplitSpacing(layer, round), spacing);
-              spacing = schedule.SplitSpacing(layer, round);
-            }
+            EXPECT_LT(schedule.SplitSpacing(layer), spacing);
+            spacing = schedule.SplitSpacing(layer);
           } else {
             EXPECT_LT(schedule.RefineBound(layer), bound);
             bound = schedule.RefineBound(layer);
@@ -160,7 +158,7 @@ TEST(LayerSchedule, JoinsLayersOfFewVerticesUntilAStepAddsEnough) {
   const LayerSchedule schedule(kExtent, kPerOctave, 1, split, 0, first);
   // Vertices of a surface that has 20,000 where they are 100 apart.
   const auto vertices = [&](uint32_t layer) {
-    const double spacing = schedule.SplitSpacing(layer, 0);
+    const double spacing = schedule.SplitSpacing(layer);
     return 20000 * 100.0 * 100.0 / (spacing * spacing);
   };
   EXPECT_GE(vertices(0), kLeast);
@@ -179,7 +177,7 @@ TEST(LayerSchedule, TellsAStepInPartsOfTheSameSpacing) {
   const LayerSchedule parts(kExtent, kPerOctave, 1, 14, 2, 5, parted);
   std::vector<double> spacings;
   for (uint32_t layer = 0; layer + 1 < parts.split_layers(); ++layer) {
-    const double spacing = parts.SplitSpacing(layer, 0);
+    const double spacing = parts.SplitSpacing(layer);
     if (parts.BeginsStep(layer)) {
       spacings.push_back(spacing);
     } else {
@@ -188,11 +186,11 @@ TEST(LayerSchedule, TellsAStepInPartsOfTheSameSpacing) {
     }
   }
   for (size_t i = 0; i < spacings.size(); ++i) {
-    EXPECT_EQ(spacings[i], whole.SplitSpacing(static_cast<uint32_t>(i), 0));
+    EXPECT_EQ(spacings[i], whole.SplitSpacing(static_cast<uint32_t>(i)));
   }
   EXPECT_TRUE(parts.BeginsStep(parts.split_layers() - 1));
   EXPECT_EQ(parts.parts_left(parts.split_layers() - 1), 0u);
-  EXPECT_EQ(parts.SplitSpacing(parts.split_layers() - 1, 0), 0);
+  EXPECT_EQ(parts.SplitSpacing(parts.split_layers() - 1), 0);
 }
 
 TEST(LayerSchedule, PartsStepsFromTheFirstLayerToTheTypicalEdge) {
@@ -209,14 +207,12 @@ TEST(LayerSchedule, PartsStepsFromTheFirstLayerToTheTypicalEdge) {
   const LayerSchedule schedule(kExtent, 4, 1, split, 0, first, one);
   for (uint32_t layer = 1; layer + 1 < split; ++layer) {
     if (schedule.parts_left(layer) > 0) {
-      EXPECT_GE(schedule.SplitSpacing(layer, 0), 100 / 1.19);
+      EXPECT_GE(schedule.SplitSpacing(layer), 100 / 1.19);
     }
   }
   CodecSettings off = settings;
   off.step_parts = 1;
   EXPECT_EQ(PartedStepsFor(kExtent, 100, first, off, 1).parts, 1u);
-  settings.rounds_per_layer = 2;
-  EXPECT_EQ(PartedStepsFor(kExtent, 100, first, settings, 1).parts, 1u);
 }
 
 TEST(LayerSchedule, BeginsWithOneStepWhereSizesAreUnknown) {

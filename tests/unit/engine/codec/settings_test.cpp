@@ -49,6 +49,9 @@ TEST(WithEffort, IsTheDefaultAtFive) {
   EXPECT_EQ(five.density_step, usual.density_step);
   EXPECT_EQ(five.mixers, usual.mixers);
   EXPECT_EQ(five.subtree_vertices, usual.subtree_vertices);
+  EXPECT_EQ(five.step_parts, usual.step_parts);
+  EXPECT_EQ(five.length_weight, usual.length_weight);
+  EXPECT_EQ(five.distortion_first, usual.distortion_first);
 }
 
 TEST(WithEffort, NeverDoesLessForMore) {
@@ -70,11 +73,11 @@ TEST(WithEffort, NeverDoesLessForMore) {
 TEST(WithEffort, LeavesOtherSettingsAlone) {
   CodecSettings settings;
   settings.children = 7;
-  settings.distortion_first = 0.25;
+  settings.curvature_threshold = 0.25;
   settings.fan_cuts = false;
   const CodecSettings nine = WithEffort(settings, 9);
   EXPECT_EQ(nine.children, 7u);
-  EXPECT_EQ(nine.distortion_first, 0.25);
+  EXPECT_EQ(nine.curvature_threshold, 0.25);
   EXPECT_FALSE(nine.fan_cuts);
 }
 

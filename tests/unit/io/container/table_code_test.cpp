@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <functional>
 #include <limits>
@@ -11,6 +12,7 @@
 
 #include "folprom/result.h"
 #include "io/container/byte_code.h"
+#include "io/container/row_code.h"
 #include "samples.h"
 
 namespace folprom::io {
@@ -69,6 +71,23 @@ ByteWriter BeforeCounts(uint64_t vertices = 0, uint64_t extent = 0) {
   for (int i = 0; i < 3; ++i) out.Varint(extent);
   out.Varint(0);
   return out;
+}
+
+/// Rows of no layer: their orders.
+void NoLayers(bool seams, ByteWriter* out) {
+  out->Varint(0);
+  BitWriter bits(out);
+  bits.Bits(0, (seams ? 5 : 4) * kRowParameterBits);
+  bits.Finish();
+}
+
+/// A layer of no subtrees, as its three numbers are coded.
+void OneLayer(const std::array<uint64_t, 3>& numbers, ByteWriter* out) {
+  out->Varint(1);
+  BitWriter bits(out);
+  for (const uint64_t& number : numbers) WriteRow(std::span(&number, 1), &bits);
+  WriteRow({}, &bits);
+  bits.Finish();
 }
 
 /// The fields behind the sizes of the last layer.
@@ -153,9 +172,10 @@ TEST(TableCode, RejectsCountsThatTheBytesLeftCannotHold) {
   ExpectCorrupt(with_counts(1, uint64_t{1} << 32, 100), "number of subtrees");
   ExpectCorrupt(with_counts(0, UINT32_MAX, 100), "bytes of table, 101 are left");
   ExpectCorrupt(with_counts(4096, UINT32_MAX, 100), "bytes of table, 102 are left");
-  ExpectCorrupt(with_counts(4096, 0, 4096 * 3 - 1), "more layers than bytes left");
+  ExpectCorrupt(with_counts(4096, 0, 1538), "than the layers and segment sizes need");
   // Room for the records, not for 4,096 x 2,000 sizes.
-  ExpectCorrupt(with_counts(4096, 2000, 4096 * 4 + 2000 * 8), "than the segment sizes need");
+  ExpectCorrupt(with_counts(4096, 2000, 4096 * 4 + 2000 * 8),
+                "than the layers and segment sizes need");
 }
 
 TEST(TableCode, PartsWhereTheBytesHaveDoubled) {
@@ -178,9 +198,11 @@ TEST(TableCode, RejectsATableOfNoLayerAndLayersWithoutATable) {
     ByteWriter out = BeforeCounts();
     out.Varint(layers);
     out.Varint(0);
-    out.Varint(here);
-    for (uint64_t i = 0; i < 3 * here; ++i) out.Varint(0);
-    if (here > 0) out.U8(0);
+    if (here == 1) {
+      OneLayer({}, &out);
+    } else {
+      out.Varint(here);
+    }
     if (here < layers) out.Varint(next);
     return std::move(out).Take();
   };
@@ -236,7 +258,7 @@ TEST(TableCode, RejectsNeighboursThatAreNotLower) {
     }
     out.Varint(steps.size());
     for (const uint64_t step : steps) out.Varint(step);
-    out.Varint(0);
+    NoLayers(!steps.empty(), &out);
     Finish(&out);
     return std::move(out).Take();
   };
@@ -260,7 +282,7 @@ TEST(TableCode, RejectsBoxesOutsideTheExtent) {
       out.Varint(side);
     }
     out.Varint(0);
-    out.Varint(0);
+    NoLayers(false, &out);
     Finish(&out);
     return std::move(out).Take();
   };
@@ -275,14 +297,15 @@ TEST(TableCode, RejectsASubtreeWithoutVertices) {
   out.Varint(0);
   out.Varint(1);
   for (int i = 0; i < 8; ++i) out.Varint(0);
-  out.Varint(0);
+  NoLayers(false, &out);
   Finish(&out);
   ExpectCorrupt(std::move(out).Take(), "subtree 0: no vertices");
 }
 
 TEST(TableCode, RejectsVerticesThatTheSubtreesDoNotHave) {
   ByteWriter out = BeforeCounts(5);
-  for (int i = 0; i < 3; ++i) out.Varint(0);
+  for (int i = 0; i < 2; ++i) out.Varint(0);
+  NoLayers(false, &out);
   Finish(&out);
   ExpectCorrupt(std::move(out).Take(), "the subtrees have 0 vertices, the mesh 5");
 }
@@ -292,11 +315,7 @@ TEST(TableCode, RejectsLayersThatContradictTheMesh) {
     ByteWriter out = BeforeCounts(0);
     out.Varint(1);
     out.Varint(0);
-    out.Varint(1);
-    out.Varint(ZigZag(std::bit_cast<uint32_t>(bound) >> 16));
-    out.Varint(vertices);
-    out.Varint(faces_code);
-    out.Bytes(std::vector<uint8_t>(1));
+    OneLayer({ZigZag(std::bit_cast<uint32_t>(bound) >> 16), ZigZag(vertices), faces_code}, &out);
     Finish(&out);
     return std::move(out).Take();
   };
@@ -307,9 +326,7 @@ TEST(TableCode, RejectsLayersThatContradictTheMesh) {
   ByteWriter wide = BeforeCounts(0);
   wide.Varint(1);
   wide.Varint(0);
-  wide.Varint(1);
-  wide.Varint(ZigZag(0x10000));
-  wide.Bytes(std::vector<uint8_t>(3));
+  OneLayer({ZigZag(0x10000), 0, 0}, &wide);
   ExpectCorrupt(std::move(wide).Take(), "error bound of more bits");
   ExpectCorrupt(with_layer(std::numeric_limits<float>::quiet_NaN(), 0, 0), "error bound");
 }

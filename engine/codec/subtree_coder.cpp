@@ -125,142 +125,6 @@ void SubtreeCoder::CodeRoot(Coder& coder, SubtreeTruth* truth) {
 }
 
 template <class Coder>
-void SubtreeCoder::CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* meters) {
-  const LayerSchedule& schedule = parameters_.schedule;
-  if (schedule.BeginsStep(layer_)) {
-    const double least_spacing = schedule.SplitSpacing(layer_);
-    coder.SetMeter(&meters->split);
-    asking_ = due_.CodeAsking(coder, least_spacing, lod_, open_, truth);
-    if (asking_) {
-      BeginShares(least_spacing);
-    } else {
-      BeginRounds(least_spacing);
-    }
-  }
-  if (asking_) {
-    CodeShare(coder, truth, meters);
-    return;
-  }
-  for (uint32_t round = 0; round < schedule.rounds(layer_); ++round) {
-    CodeRound(coder, round_spacings_.back(), truth, meters);
-    if (round_spacings_.size() > 1) round_spacings_.pop_back();
-  }
-}
-
-void SubtreeCoder::BeginRounds(double least_spacing) {
-  round_spacings_.assign(1, least_spacing);
-  const LayerSchedule& schedule = parameters_.schedule;
-  const size_t rounds = size_t{schedule.rounds(layer_)} * (schedule.parts_left(layer_) + 1);
-  if (rounds == 1) return;
-  std::vector<float> large;
-  for (uint32_t set : open_) {
-    float& spacing = lod_.sets[set].spacing;
-    if (static_cast<double>(spacing) < least_spacing) continue;
-    spacing = static_cast<float>(lod_.Spacing(set));
-    if (static_cast<double>(spacing) >= least_spacing) large.push_back(spacing);
-  }
-  std::sort(large.begin(), large.end());
-  for (size_t round = 1; round < rounds; ++round) {
-    const size_t place = large.size() * round / rounds;
-    round_spacings_.push_back(large.empty() ? least_spacing : static_cast<double>(large[place]));
-  }
-}
-
-template <class Coder>
-void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth,
-                             CostMeters* meters) {
-  if (grid_) OrderAlongSurface();
-  // Children that are still large enough join the end of the list and the same round.
-  size_t kept = 0;
-  for (size_t i = 0; i < open_.size(); ++i) {
-    const uint32_t set = open_[i];
-    SetRecord& record = lod_.sets[set];
-    if (record.is_leaf) continue;
-    // Spacings fall as neighbours split, so one that was too small before is not measured again.
-    double spacing = static_cast<double>(record.spacing);
-    if (spacing >= least_spacing) {
-      spacing = lod_.Spacing(set);
-      record.spacing = static_cast<float>(spacing);
-    }
-    if (spacing >= least_spacing) {
-      CodeSet(coder, set, spacing, truth, meters);
-    } else {
-      open_[kept++] = set;
-    }
-  }
-  open_.resize(kept);
-}
-
-void SubtreeCoder::BeginShares(double least_spacing) {
-  if (grid_) OrderAlongSurface();
-  share_ = {};
-  for (uint32_t set : open_) share_.large.push_back(lod_.Spacing(set) >= least_spacing);
-}
-
-template <class Coder>
-void SubtreeCoder::CodeShare(Coder& coder, SubtreeTruth* truth, CostMeters* meters) {
-  const uint32_t parts_left = parameters_.schedule.parts_left(layer_);
-  const auto begin = open_.begin() + static_cast<std::ptrdiff_t>(share_.waiting);
-  const std::vector<uint32_t> sets(begin, open_.end());
-  open_.resize(share_.waiting);
-  size_t large = static_cast<size_t>(std::count(share_.large.begin(), share_.large.end(), true)) /
-                 (parts_left + 1);
-  size_t taken = 0;
-  while (taken < sets.size() && (parts_left == 0 || large > 0)) {
-    if (share_.large[taken]) --large;
-    AskFamily(coder, sets[taken++], truth, meters);
-  }
-  const auto rest = static_cast<std::ptrdiff_t>(taken);
-  share_.waiting = open_.size();
-  open_.insert(open_.end(), sets.begin() + rest, sets.end());
-  share_.large.erase(share_.large.begin(), share_.large.begin() + rest);
-}
-
-template <class Coder>
-void SubtreeCoder::AskFamily(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters) {
-  const size_t waiting = open_.size();
-  family_.assign(1, set);
-  for (size_t i = 0; i < family_.size(); ++i) {
-    const uint32_t member = family_[i];
-    const double spacing = lod_.Spacing(member);
-    coder.SetMeter(&meters->split);
-    if (lod_.size() > 1 && !due_.CodeDue(coder, lod_, member, spacing, truth)) {
-      asked_.push_back(member);
-      continue;
-    }
-    CodeSet(coder, member, spacing, truth, meters);
-    family_.insert(family_.end(), open_.begin() + static_cast<std::ptrdiff_t>(waiting),
-                   open_.end());
-    open_.resize(waiting);
-  }
-  open_.insert(open_.end(), asked_.begin(), asked_.end());
-  asked_.clear();
-}
-
-void SubtreeCoder::OrderAlongSurface() {
-  const Complex& complex = lod_.complex;
-  std::vector<uint8_t> state(lod_.size(), 0);  // 1: open, 2: open and reached, 3: reached
-  for (uint32_t set : open_) state[set] = 1;
-  std::vector<uint32_t> reached, ordered;
-  for (uint32_t start : open_) {
-    if (state[start] != 1) continue;
-    state[start] = 2;
-    reached.assign(1, start);
-    for (size_t i = 0; i < reached.size(); ++i) {
-      const uint32_t set = reached[i];
-      if (state[set] == 2) ordered.push_back(set);
-      for (uint32_t h = complex.FirstHalfEdge(set); h != kNone; h = complex.half_edge(h).next) {
-        const uint32_t other = complex.half_edge(h).target;
-        if (state[other] >= 2) continue;
-        state[other] = state[other] == 1 ? 2 : 3;
-        reached.push_back(other);
-      }
-    }
-  }
-  open_ = std::move(ordered);
-}
-
-template <class Coder>
 void SubtreeCoder::CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth,
                            CostMeters* meters) {
   uint32_t count = 0;
@@ -451,7 +315,11 @@ void SubtreeCoder::AppendFaces(std::vector<Face>* faces) const {
   exceptions_.AppendFaces(lod_.complex, faces);
 }
 
-template void SubtreeCoder::CodeLayer<BitEncoder>(BitEncoder&, SubtreeTruth*, CostMeters*);
-template void SubtreeCoder::CodeLayer<BitDecoder>(BitDecoder&, SubtreeTruth*, CostMeters*);
+#define FOLPROM_INSTANTIATE(Coder)                                                  \
+  template void SubtreeCoder::CodeLayer<Coder>(Coder&, SubtreeTruth*, CostMeters*); \
+  template void SubtreeCoder::CodeSet<Coder>(Coder&, uint32_t, double, SubtreeTruth*, CostMeters*);
+FOLPROM_INSTANTIATE(BitEncoder)
+FOLPROM_INSTANTIATE(BitDecoder)
+#undef FOLPROM_INSTANTIATE
 
 }  // namespace folprom

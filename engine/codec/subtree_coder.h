@@ -64,13 +64,16 @@ class SubtreeCoder {
  private:
   template <class Coder>
   void CodeRoot(Coder& coder, SubtreeTruth* truth);
+  // In subtree_rounds.cpp.
   /// The splits of a layer.
   template <class Coder>
   void CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
   /// Splits sets down to a spacing; 0: all.
   template <class Coder>
   void CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth, CostMeters* meters);
+  /// A step that does not ask, down to a spacing.
   void BeginRounds(double least_spacing);
+  /// A step that asks.
   void BeginShares(double least_spacing);
   /// Asks the layer's share of the open sets whether they are split.
   template <class Coder>

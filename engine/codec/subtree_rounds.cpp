@@ -35,7 +35,8 @@ void SubtreeCoder::BeginRounds(double least_spacing) {
   round_spacings_.assign(1, least_spacing);
   const LayerSchedule& schedule = parameters_.schedule;
   const size_t rounds = size_t{schedule.rounds(layer_)} * (schedule.parts_left(layer_) + 1);
-  if (rounds == 1) return;
+  // What a grid expects holds where neighbours are split one after the other, large or not.
+  if (rounds == 1 || grid_) return;
   std::vector<float> large;
   for (uint32_t set : open_) {
     float& spacing = lod_.sets[set].spacing;

@@ -147,7 +147,7 @@ void EncodeJob::Partition() {
   parameters_.settings = options_.codec;
   parameters_.extent = {extent[0], extent[1], extent[2]};
   parameters_.exact = resolution_.lattice.exact;
-  uint32_t per_octave = options_.codec.layers_per_octave;
+  uint32_t per_octave = options_.codec.steps_per_octave;
   double edge = TypicalEdge();
   Offsets offsets = options_.codec.offsets;
   const uint32_t first_steps = FirstStepsFor(parameters_.extent, edge, source_->vertex_count(),
@@ -155,7 +155,7 @@ void EncodeJob::Partition() {
   const PartedSteps parted =
       PartedStepsFor(parameters_.extent, edge, first_steps, options_.codec, outcomes_.size());
   parameters_.schedule = LayerSchedule(
-      parameters_.extent, per_octave, options_.codec.rounds_per_layer,
+      parameters_.extent, per_octave, options_.codec.rounds_per_step,
       SplitLayersFor(parameters_.extent, edge, per_octave, offsets, first_steps, parted),
       RefineLayersFor(parameters_.extent, edge, per_octave, offsets), first_steps, parted);
 }
@@ -276,8 +276,8 @@ void EncodeJob::DropEmptyLayers() {
   kept_layers_.push_back(split - 1);
   for (uint32_t layer = first_refine; layer < all; ++layer) kept_layers_.push_back(layer);
   parameters_.schedule =
-      LayerSchedule(parameters_.extent, options_.codec.layers_per_octave,
-                    options_.codec.rounds_per_layer, kept_split + 1, all - first_refine,
+      LayerSchedule(parameters_.extent, options_.codec.steps_per_octave,
+                    options_.codec.rounds_per_step, kept_split + 1, all - first_refine,
                     parameters_.schedule.first_steps(), parameters_.schedule.parted());
 }
 

@@ -12,7 +12,8 @@ namespace folprom {
 
 struct MemoryDecoder::Impl {
   explicit Impl(io::ContainerReader opened)
-      : container(std::move(opened)), parameters(ParametersOf(container.table(), container.layers_total())) {
+      : container(std::move(opened)),
+        parameters(ParametersOf(container.table(), container.layers_total())) {
     const io::FileTable& table = container.table();
     std::vector<bool> border = SubtreesWithBorder(table);
     for (size_t s = 0; s < table.subtrees.size(); ++s) {

@@ -69,7 +69,7 @@ constexpr SettingKey kKeys[] = {
      "models start from what other meshes taught them, with offsets = \"lattice\"; false: from "
      "nothing",
      ""},
-    {"layers_per_octave", &S::layers_per_octave, "steps per halving of the vertex spacing", "steps",
+    {"steps_per_octave", &S::steps_per_octave, "steps per halving of the vertex spacing", "steps",
      1, 8},
     {"least_layer", &S::least_layer,
      "vertices that a layer is expected to add; smaller ones are joined; 0: none are", "vertices",
@@ -77,7 +77,7 @@ constexpr SettingKey kKeys[] = {
     {"step_parts", &S::step_parts,
      "most layers that a step of the spacing is; as many as pay for what the table says of a layer",
      "layers", 1, 8},
-    {"rounds_per_layer", &S::rounds_per_layer,
+    {"rounds_per_step", &S::rounds_per_step,
      "rounds in which a step works down from its largest spacing, where sets are not split by "
      "distortion; at least one a layer",
      "rounds", 1, 16},

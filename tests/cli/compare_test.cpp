@@ -91,8 +91,8 @@ TEST_F(Compare, RefusesWrongCalls) {
 }
 
 TEST_F(Compare, RdWritesItsThreeFiles) {
-  const Outcome outcome = Run(
-      {"rd", Path("s.ply"), "--bpv", "1,10,100", "--samples", "20k", "-o", Path("curve"), "--json"});
+  const Outcome outcome = Run({"rd", Path("s.ply"), "--bpv", "1,10,100", "--samples", "20k", "-o",
+                               Path("curve"), "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto report = outcome.json();
   EXPECT_EQ(report, nlohmann::json::parse(FileText(Path("curve.json"))));

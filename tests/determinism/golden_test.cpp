@@ -67,7 +67,7 @@ TEST(GoldenTest, SettingsOfThePaperInSubtreesGiveTheKnownBytes) {
   codec.distortion_first = 0.1;
   codec.adaptive_quantisation = codec.predict_theta = codec.predict_height = true;
   codec.split_first = codec.pivot_order = codec.nearer_child = true;
-  codec.layers_per_octave = codec.rounds_per_layer = 2;
+  codec.steps_per_octave = codec.rounds_per_step = 2;
   ExpectHash("kPaperHash", kPaperHash, options);
 }
 
@@ -130,8 +130,8 @@ TEST(GoldenTest, EverythingOffInSubtreesGivesTheKnownBytes) {
   codec.pivot_order = codec.nearer_child = false;
   codec.representative = Representative::kCentre;
   codec.distortion_first = 0;
-  codec.layers_per_octave = 3;
-  codec.rounds_per_layer = 1;
+  codec.steps_per_octave = 3;
+  codec.rounds_per_step = 1;
   ExpectHash("kOtherHash", kOtherHash, options);
 }
 

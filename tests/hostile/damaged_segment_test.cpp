@@ -48,7 +48,7 @@ Bytes FileOfKind(size_t kind) {
       break;
     case 3:
       options.codec.split_first = false;
-      options.codec.rounds_per_layer = 1;
+      options.codec.rounds_per_step = 1;
       break;
     case 4:
       options.codec.predict_theta = options.codec.predict_height = false;

@@ -60,8 +60,8 @@ Bytes Forged(const std::vector<Int3>& positions, const std::vector<Face>& faces,
   CodecParameters parameters;
   parameters.settings = support::LloydSettings();
   parameters.extent = {kSide, kSide, kSide};
-  parameters.schedule = LayerSchedule(parameters.extent, parameters.settings.layers_per_octave,
-                                      parameters.settings.rounds_per_layer, 3, 2);
+  parameters.schedule = LayerSchedule(parameters.extent, parameters.settings.steps_per_octave,
+                                      parameters.settings.rounds_per_step, 3, 2);
   SetTree tree = BuildLloydTree(positions, MeasureSurface(positions, faces, cross_faces, 0), kSide,
                                 parameters.settings);
   TreeTruth honest(chunk, 0, tree, parameters);

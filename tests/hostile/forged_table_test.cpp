@@ -87,7 +87,7 @@ TEST_P(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
   }
   for (uint32_t S::*field :
        {&S::subtree_vertices, &S::children, &S::lloyd_iterations, &S::quantisation_levels,
-        &S::layers_per_octave, &S::rounds_per_layer, &S::step_parts, &S::effort, &S::mixers}) {
+        &S::steps_per_octave, &S::rounds_per_step, &S::step_parts, &S::effort, &S::mixers}) {
     for (uint32_t value : {0u, 0xffffffffu, 0x80000000u}) {
       ExpectCorrupt(WithSettings([&](S& s) { s.*field = value; }), std::to_string(value));
     }
@@ -152,7 +152,7 @@ TEST_P(ForgedTable, WithAScheduleOfOtherPartsEndsWell) {
     Parts parts = small;
     CodecParameters parameters = honest;
     parameters.schedule = LayerSchedule(
-        honest.extent, honest.settings.layers_per_octave, honest.settings.rounds_per_layer, split,
+        honest.extent, honest.settings.steps_per_octave, honest.settings.rounds_per_step, split,
         honest.schedule.layers() - split, honest.schedule.first_steps(), honest.schedule.parted());
     parts.table.codec = WriteParameters(parameters);
     if (split == honest.schedule.split_layers()) {

@@ -75,7 +75,7 @@ std::vector<Case> Combinations() {
   for (double first : {0.0, 0.3, 1.0}) {
     CodecSettings settings;
     settings.distortion_first = first;
-    settings.layers_per_octave = first == 0 ? 1 : 4;
+    settings.steps_per_octave = first == 0 ? 1 : 4;
     cases.push_back({NameOf("QuadricLattice", first), settings});
   }
   for (uint32_t effort = 1; effort <= 9; ++effort) {
@@ -100,12 +100,12 @@ std::vector<Case> Combinations() {
   plain.adaptive_quantisation = plain.predict_height = plain.split_first = false;
   cases.push_back({"CartesianOffsetsRefinedAtOnce", plain});
   CodecSettings many = LloydSettings();
-  many.layers_per_octave = 8;
-  many.rounds_per_layer = 16;
+  many.steps_per_octave = 8;
+  many.rounds_per_step = 16;
   many.split_first = false;
   cases.push_back({"ManyLayersOfManyRounds", many});
   CodecSettings few = LloydSettings();
-  few.layers_per_octave = few.rounds_per_layer = 1;
+  few.steps_per_octave = few.rounds_per_step = 1;
   few.lloyd_iterations = 1;
   few.lloyd_threshold = 1;
   cases.push_back({"FewLayersOfPoorSplits", few});

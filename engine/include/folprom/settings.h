@@ -71,12 +71,12 @@ struct CodecSettings {
   bool trained = true;
 
   // Layers
-  uint32_t layers_per_octave = 4;  ///< steps per halving of the spacing; 1 .. 8
+  uint32_t steps_per_octave = 4;  ///< steps per halving of the spacing; 1 .. 8
   /// Vertices that a layer is expected to add; smaller ones are joined. 0 .. 1000000; 0: none.
   uint32_t least_layer = 100;
   uint32_t step_parts = 4;  ///< most layers that a step is; 1 .. 8
   /// Largest spacing first, in this many rounds a step, at least one a layer; 1 .. 16.
-  uint32_t rounds_per_layer = 4;
+  uint32_t rounds_per_step = 4;
 
   // Effort
   /// 1 fastest .. 9 smallest. A record of what WithEffort was asked for; it decides nothing itself.

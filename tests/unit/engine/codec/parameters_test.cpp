@@ -21,11 +21,11 @@ CodecParameters Some() {
   parameters.settings.metric_b = 3.5;
   parameters.settings.split_first = false;
   parameters.settings.representative = Representative::kCentre;
-  parameters.settings.layers_per_octave = 3;
+  parameters.settings.steps_per_octave = 3;
   parameters.settings = WithEffort(parameters.settings, 8);
   parameters.settings.distortion_first = 0.25;
   parameters.schedule =
-      LayerSchedule(kExtent, 3, parameters.settings.rounds_per_layer, 9, 4, 5, {6, 8, 4});
+      LayerSchedule(kExtent, 3, parameters.settings.rounds_per_step, 9, 4, 5, {6, 8, 4});
   return parameters;
 }
 

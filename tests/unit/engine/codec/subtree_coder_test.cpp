@@ -78,9 +78,9 @@ CodecParameters ParametersFor(const CodecSettings& settings) {
   CodecParameters parameters;
   parameters.extent = {kSide, kSide, kSide};
   parameters.settings = settings;
-  const uint32_t per_octave = parameters.settings.layers_per_octave;
+  const uint32_t per_octave = parameters.settings.steps_per_octave;
   parameters.schedule = LayerSchedule(
-      parameters.extent, per_octave, parameters.settings.rounds_per_layer,
+      parameters.extent, per_octave, parameters.settings.rounds_per_step,
       SplitLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets),
       RefineLayersFor(parameters.extent, 500, per_octave, parameters.settings.offsets));
   return parameters;

@@ -23,7 +23,7 @@ DueCoder::DueCoder(const DueSettings& settings) : settings_(settings), still_ask
 template <class Coder>
 bool DueCoder::CodeAsking(Coder& coder, double least_spacing, const SubtreeLod& lod,
                           std::span<const uint32_t> open, const SubtreeTruth* truth) {
-  ++round_;
+  ++step_;
   least_spacing_ = least_spacing;
   const auto live = static_cast<double>(lod.size());
   const bool is_asked = least_spacing > 0 && (lod.size() > 1 || settings_.ask_root);
@@ -45,7 +45,7 @@ bool DueCoder::CodeDue(Coder& coder, SubtreeLod& lod, uint32_t set, double spaci
   bool due = false;
   if constexpr (Coder::kEncoding) due = IsDue(*truth, set);
   due = model_.Code(coder, SignsOf(lod, set, spacing), due);
-  lod.sets[set].asked = due ? 0 : round_;
+  lod.sets[set].asked = due ? 0 : step_;
   return due;
 }
 
@@ -75,12 +75,12 @@ DueSigns DueCoder::SignsOf(SubtreeLod& lod, uint32_t set, double spacing) const 
   const RingShape ring = lod.ShapeAround(set);
   const double fourth = ring.spacing * ring.spacing * ring.height_range * settings_.longest;
   signs.distortion = std::sqrt(std::sqrt(fourth)) / least_spacing_;
-  signs.asked = lod.sets[set].asked + 1 == round_;
+  signs.asked = lod.sets[set].asked + 1 == step_;
   const Complex& complex = lod.complex;
   for (uint32_t h = complex.FirstHalfEdge(set); h != kNone; h = complex.half_edge(h).next) {
     const SetRecord& other = lod.sets[complex.half_edge(h).target];
     if (other.is_leaf) continue;
-    if (other.asked == round_) ++signs.waiting;
+    if (other.asked == step_) ++signs.waiting;
     if (other.asked == 0) ++signs.split;
   }
   return signs;

@@ -1,4 +1,4 @@
-// Early rounds ask which sets are due by the error that they make; later ones go by spacing alone.
+// Early steps ask which sets are due by the error that they make; later ones go by spacing alone.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace folprom {
 
 struct DueSettings {
-  double always = 0;   ///< vertices up to which rounds ask
+  double always = 0;   ///< vertices up to which steps ask
   double longest = 1;  ///< extent of the lattice along its longest axis
   bool ask_root = true;
 };
@@ -22,12 +22,12 @@ class DueCoder {
  public:
   explicit DueCoder(const DueSettings& settings);
 
-  /// Starts a round that splits sets down to `least_spacing` (0: all). Are sets asked in it, those
+  /// Starts a step that splits sets down to `least_spacing` (0: all). Are sets asked in it, those
   /// of large spacing too. truth: encoder only.
   template <class Coder>
   bool CodeAsking(Coder& coder, double least_spacing, const SubtreeLod& lod,
                   std::span<const uint32_t> open, const SubtreeTruth* truth);
-  /// Is the set split in this round, which asks. spacing: of the set now.
+  /// Is the set split in this step, which asks. spacing: of the set now.
   template <class Coder>
   bool CodeDue(Coder& coder, SubtreeLod& lod, uint32_t set, double spacing,
                const SubtreeTruth* truth);
@@ -39,7 +39,7 @@ class DueCoder {
   DueSigns SignsOf(SubtreeLod& lod, uint32_t set, double spacing) const;
 
   DueSettings settings_;
-  uint32_t round_ = 0;  ///< the first is 1
+  uint32_t step_ = 0;  ///< the first is 1
   double least_spacing_ = 0;
   bool asking_ = false;
   MixedModel<1> still_asking_;

@@ -1,6 +1,7 @@
 // Sets that come from regular grids: are they single vertices, and where do new vertices lie.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -17,7 +17,7 @@ struct SetRecord {
   /// When last measured, never far below the present one; of a leaf, when it was found to be one.
   float spacing = kUnmeasured;
   uint32_t border = kNone;  ///< number of the border set
-  uint32_t asked = 0;       ///< the last round in which it was not due, 0: none since its split
+  uint32_t asked = 0;       ///< the last step in which it was not due, 0: none since its split
   bool is_leaf = false;     ///< a single vertex
 };
 

@@ -25,9 +25,9 @@ void SubtreeCoder::CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* met
     CodeShare(coder, truth, meters);
     return;
   }
-  for (uint32_t round = 0; round < schedule.rounds(layer_); ++round) {
+  for (uint32_t i = 0; i < schedule.rounds(layer_) && !round_spacings_.empty(); ++i) {
     CodeRound(coder, round_spacings_.back(), truth, meters);
-    if (round_spacings_.size() > 1) round_spacings_.pop_back();
+    round_spacings_.pop_back();
   }
 }
 
@@ -35,7 +35,8 @@ void SubtreeCoder::BeginRounds(double least_spacing) {
   round_spacings_.assign(1, least_spacing);
   const LayerSchedule& schedule = parameters_.schedule;
   const size_t rounds = size_t{schedule.rounds(layer_)} * (schedule.parts_left(layer_) + 1);
-  // What a grid expects holds where neighbours are split one after the other, large or not.
+  // What a grid expects holds where neighbours are split one after the other, large or not: its
+  // step is one round, of the first layer.
   if (rounds == 1 || grid_) return;
   std::vector<float> large;
   for (uint32_t set : open_) {

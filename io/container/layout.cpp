@@ -12,10 +12,10 @@ void FileLayout::CloseGroup(uint64_t begin) {
   end_ += kGroupChecksumBytes;
 }
 
-void FileLayout::AddLayers(const FileTable& table) {
+void FileLayout::AddLayers(const FileTable& table, size_t end) {
   segment_begin_.reserve(table.segment_bytes.size());
   const size_t segments_per_layer = table.subtrees.size() * 2;
-  for (size_t layer = layer_end_.size(); layer < table.layers.size(); ++layer) {
+  for (size_t layer = layer_end_.size(); layer < end; ++layer) {
     layer_begin_.push_back(end_);
     uint64_t group_begin = end_;
     for (size_t i = 0; i < segments_per_layer; ++i) {

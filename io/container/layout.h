@@ -1,6 +1,7 @@
 // Where every segment and every checksum stands, from the sizes alone: the same on both sides.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,9 +29,9 @@ class FileLayout {
 
   /// A table between layers.
   void AddTable(uint64_t bytes);
-  /// The layers that the table has and the layout not yet. The table has no fault, so no position
+  /// The layers before `end` that the layout has not yet. The table has no fault, so no position
   /// overflows.
-  void AddLayers(const FileTable& table);
+  void AddLayers(const FileTable& table, size_t end);
 
   /// Index FileTable::SegmentIndex.
   const std::vector<uint64_t>& segment_begin() const { return segment_begin_; }

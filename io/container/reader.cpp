@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "io/container/byte_code.h"
 #include "io/container/checksum.h"
@@ -43,7 +44,7 @@ void ContainerReader::LoadTables() {
   header_bytes_ = kTableBegin + first.size() + kHeaderChecksumBytes;
   decoder.Decode(first, kTableBegin);
   layout_ = FileLayout(header_bytes_);
-  layout_.AddLayers(decoder.table());
+  layout_.AddLayers(decoder.table(), decoder.table().layers.size());
   while (decoder.next_bytes() > 0) {
     const uint64_t size = decoder.next_bytes(), begin = layout_.end();
     if (size > bytes_.size() || begin + size + kGroupChecksumBytes > bytes_.size()) break;
@@ -56,10 +57,10 @@ void ContainerReader::LoadTables() {
     }
     decoder.Decode(table, begin);
     layout_.AddTable(size);
-    layout_.AddLayers(decoder.table());
+    layout_.AddLayers(decoder.table(), decoder.table().layers.size());
   }
-  table_ = decoder.table();
   layers_total_ = decoder.layers_total();
+  table_ = std::move(decoder).TakeTable();
 }
 
 std::string ContainerReader::PlaceOf(size_t layer, size_t subtree, SegmentPart part) const {

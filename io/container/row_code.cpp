@@ -12,8 +12,7 @@ int CodeBits(uint64_t number, int order) {
   return 2 * BitWidth(number + (uint64_t{1} << order)) - 1 - order;
 }
 
-}  // namespace
-
+/// The order that makes the row shortest, the smallest of several.
 int BestOrder(std::span<const uint64_t> numbers) {
   int best = 0;
   uint64_t best_bits = UINT64_MAX;
@@ -26,6 +25,8 @@ int BestOrder(std::span<const uint64_t> numbers) {
   }
   return best;
 }
+
+}  // namespace
 
 void WriteRow(std::span<const uint64_t> numbers, BitWriter* bits) {
   const int order = BestOrder(numbers);

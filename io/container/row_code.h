@@ -9,13 +9,8 @@
 namespace folprom::io {
 
 inline constexpr int kRowParameterBits = 5;
-/// Numbers of rows are below this.
-inline constexpr uint64_t kMaxRowNumber = uint64_t{1} << 62;
 
-/// The order that makes the row shortest, the smallest of several.
-int BestOrder(std::span<const uint64_t> numbers);
-
-/// The order, then the numbers.
+/// The order that makes the row shortest, the smallest of several, then the numbers: below 2^62.
 void WriteRow(std::span<const uint64_t> numbers, BitWriter* bits);
 inline int ReadOrder(BitReader* bits) { return static_cast<int>(bits->Bits(kRowParameterBits)); }
 /// The next number of a row of that order.

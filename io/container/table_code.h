@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/container/byte_code.h"
@@ -39,6 +40,7 @@ class TableDecoder {
   void Decode(std::span<const uint8_t> bytes, uint64_t offset);
 
   const FileTable& table() const { return table_; }
+  FileTable TakeTable() && { return std::move(table_); }
   size_t layers_total() const { return layers_total_; }
   /// Bytes of the next table, which stands behind the layers that are known; 0: there is none.
   uint64_t next_bytes() const { return next_bytes_; }

@@ -75,36 +75,39 @@ std::span<const uint8_t> CheckedSegment(const FileTable& table, const SegmentByt
 uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out) {
   const std::vector<CodedTable> tables = EncodeTables(table);
   const std::vector<uint8_t> header = EncodeHeader(tables[0].bytes);
+  FileLayout layout(header.size());
   BufferedFile file(&out);
   file.Append(header);
-  uint64_t at = header.size();
   GroupHash hash;
+  uint64_t at = header.size();
+  const auto append = [&](std::span<const uint8_t> bytes) {
+    file.Append(bytes);
+    hash.Add(bytes);
+    at += bytes.size();
+  };
   const auto close = [&] {
     file.Append(hash.Close());
     at += kGroupChecksumBytes;
   };
-  size_t next_table = 1;
-  for (size_t layer = 0; layer < table.layers.size(); ++layer) {
-    if (layer == tables[next_table - 1].end_layer) {
-      const std::vector<uint8_t>& bytes = tables[next_table++].bytes;
-      file.Append(bytes);
-      hash.Add(bytes);
-      at += bytes.size();
+  size_t layer = 0, group = 0;
+  for (const CodedTable& coded : tables) {
+    if (layer > 0) {
+      append(coded.bytes);
       close();
+      layout.AddTable(coded.bytes.size());
     }
-    uint64_t group_begin = at;
-    for (size_t subtree = 0; subtree < table.subtrees.size(); ++subtree) {
-      for (const SegmentPart part : {SegmentPart::kInner, SegmentPart::kSeam}) {
-        const auto bytes = CheckedSegment(table, segment, layer, subtree, part);
-        file.Append(bytes);
-        hash.Add(bytes);
-        at += bytes.size();
-        if (at - group_begin < kGroupBytes) continue;
-        close();
-        group_begin = at;
+    layout.AddLayers(table, coded.end_layer);
+    for (; layer < coded.end_layer; ++layer) {
+      for (size_t subtree = 0; subtree < table.subtrees.size(); ++subtree) {
+        for (const SegmentPart part : {SegmentPart::kInner, SegmentPart::kSeam}) {
+          const auto bytes = CheckedSegment(table, segment, layer, subtree, part);
+          append(bytes);
+          if (bytes.empty() || at < layout.groups()[group].end) continue;
+          close();
+          ++group;
+        }
       }
     }
-    if (at > group_begin) close();
   }
   file.Flush();
   return at;

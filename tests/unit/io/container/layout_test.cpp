@@ -16,7 +16,7 @@ FileTable TableOf(std::vector<uint64_t> sizes) {
 
 FileLayout LayoutOf(const FileTable& table, uint64_t header_bytes) {
   FileLayout layout(header_bytes);
-  layout.AddLayers(table);
+  layout.AddLayers(table, table.layers.size());
   return layout;
 }
 
@@ -57,7 +57,7 @@ TEST(Layout, ATableBetweenLayersIsNoPartOfThem) {
   FileLayout layout = LayoutOf(table, 100);
   layout.AddTable(30);
   table = TableOf({10, 0, 0, 0, 20, 0, 0, 0});
-  layout.AddLayers(table);
+  layout.AddLayers(table, table.layers.size());
   EXPECT_EQ(GroupsOf(layout), (Ends{{100, 110}, {148, 168}}));
   EXPECT_EQ(layout.layer_begin(), (std::vector<uint64_t>{100, 148}));
   EXPECT_EQ(layout.layer_end(), (std::vector<uint64_t>{114, 172}));

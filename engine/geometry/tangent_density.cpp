@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/entropy/cell_model.h"
-
 namespace folprom {
 namespace {
 
 /// Between cells that a step of 2 would part, in spacings.
 constexpr double kStep = 0.1;
 constexpr float kLearning = 0.1F;
+/// What a cell would teach less than is left alone.
+constexpr float kLeastLearned = 2e-5F;
 
-/// Squared distance in spacings to a bucket: fine where vertices are near.
-uint8_t DistanceBucket(double squared, uint32_t count) {
-  double bucket = squared < 0.36 ? 22 * squared : 8 + 12 * (squared - 0.36);
-  return static_cast<uint8_t>(std::min(bucket, static_cast<double>(count - 1)));
+/// Squared distances in spacings to buckets: fine where vertices are near.
+LaneIntegers DistanceBuckets(Lanes squared, float last) {
+  const Lanes bucket = LesserOf(22 * squared, 3.68F + 12 * squared);
+  return WholeOf(LesserOf(bucket, AllLanes(last)));
 }
 
 double Flat(const Vector3& normal, uint32_t axis) {
@@ -32,11 +32,20 @@ TangentDensity::TangentDensity(uint32_t step)
   constexpr int kHalfAlong = kAlong / 2, kHalfAside = kAside / 2;
   const int skip = static_cast<int>(step);
   const int most_along = 2 * kHalfAlong / skip * skip, most_aside = 2 * kHalfAside / skip * skip;
+  half_along_ = static_cast<float>(kStep / 2 * most_along);
+  half_aside_ = static_cast<float>(kStep / 2 * most_aside);
   for (int a = -most_along; a <= most_along; a += skip) {
     for (int b = -most_aside; b <= most_aside; b += skip) {
+      along_[cells_ / kLanes][cells_ % kLanes] = static_cast<float>(kStep * (a / 2.0));
+      aside_[cells_ / kLanes][cells_ % kLanes] = static_cast<float>(kStep * (b / 2.0));
       const int place = (a / 2 + kHalfAlong) * (kHalfAside + 1) + (b < 0 ? -b : b) / 2;
-      cells_.push_back({kStep * (a / 2.0), kStep * (b / 2.0), static_cast<uint16_t>(place)});
+      place_of_[cells_++] = static_cast<uint16_t>(place);
     }
+  }
+  groups_ = (cells_ + kLanes - 1) / kLanes;
+  for (uint32_t k = cells_; k < groups_ * kLanes; ++k) {
+    along_[k / kLanes][k % kLanes] = aside_[k / kLanes][k % kLanes] = 0;
+    place_of_[k] = 0;
   }
   for (auto& table : place_) table.fill(0);
   for (auto& table : far_) table.fill(0);
@@ -55,48 +64,71 @@ void TangentDensity::Visit(LearnedStateVisitor& visitor) {
 void TangentDensity::Prepare(const RingShape& ring, const Vector3& ahead) {
   spacing_ = ring.spacing;
   normal_ = ring.normal;
-  double height = Dot(ahead, ring.normal);
+  const double height = Dot(ahead, ring.normal), inverse = 1 / spacing_;
   Vector3 along{0, 0, 0};
   for (size_t i = 0; i < 3; ++i) along[i] = ahead[i] - height * ring.normal[i];
-  double length = std::sqrt(Dot(along, along));
-  double inverse = 1 / spacing_, eccentricity = length * inverse;
-  if (eccentricity > 1e-6) {
+  const double length = std::sqrt(Dot(along, along));
+  eccentricity_ = static_cast<float>(length * inverse);
+  if (eccentricity_ > 1e-6F) {
     for (double& value : along) value = value / length;
   } else {
     along = ring.tangent;
   }
-  Vector3 aside = Cross(ring.normal, along);
+  along_axis_ = along;
+  aside_axis_ = Cross(ring.normal, along);
   count_context_ = ring.count < 6 ? 0 : (ring.count < 8 ? 1 : (ring.count < 10 ? 2 : 3));
-  context_ = static_cast<uint32_t>(std::min(eccentricity / 0.2, kEccentricities - 1.0)) * kCounts +
+  constexpr float kLastEccentricity = kEccentricities - 1;
+  context_ = static_cast<uint32_t>(std::min(eccentricity_ / 0.2F, kLastEccentricity)) * kCounts +
              count_context_;
-  neighbours_ = std::min<size_t>(ring.count, kMostNeighbours);
-  std::array<std::array<double, 2>, kMostNeighbours> place;
-  for (size_t n = 0; n < neighbours_; ++n) {
+  neighbours_ = std::min(ring.count, kMostNeighbours);
+  std::array<std::array<float, 2>, kMostNeighbours> place;
+  for (uint32_t n = 0; n < neighbours_; ++n) {
     const Vector3& d = ring.around[n];
-    place[n] = {Dot(d, along) * inverse, Dot(d, aside) * inverse};
-    double far = place[n][0] * place[n][0] + place[n][1] * place[n][1];
-    ring_bucket_[n] = static_cast<uint8_t>(std::min(far * 3, kRingBuckets - 1.0));
+    const float u = static_cast<float>(Dot(d, along) * inverse);
+    const float v = static_cast<float>(Dot(d, aside_axis_) * inverse);
+    place[n] = {u, v};
+    constexpr float kLastRing = kRingBuckets - 1;
+    ring_bucket_[n] = static_cast<uint8_t>(std::min((u * u + v * v) * 3, kLastRing));
   }
+  Weigh(place);
+}
+
+void TangentDensity::Weigh(const std::array<std::array<float, 2>, kMostNeighbours>& neighbours) {
   const auto& table = place_[context_];
   const auto& far = far_[count_context_];
   const PairTable& pair = pair_[count_context_];
-  double total = 0;
-  for (size_t k = 0; k < cells_.size(); ++k) {
-    const Cell& cell = cells_[k];
-    const double u = eccentricity + cell.along, v = cell.aside;
-    for (size_t i = 0; i < 3; ++i) centre_[k][i] = spacing_ * (u * along[i] + v * aside[i]);
-    far_bucket_[k] = DistanceBucket(u * u + v * v, kFarBuckets);
-    float score = table[cell.place] + far[far_bucket_[k]];
-    for (size_t n = 0; n < neighbours_; ++n) {
-      double du = u - place[n][0], dv = v - place[n][1];
-      uint8_t bucket = DistanceBucket(du * du + dv * dv, kNearBuckets);
-      near_bucket_[k][n] = bucket;
-      score = score + pair[ring_bucket_[n]][bucket];
+  Lanes total = AllLanes(0);
+  for (uint32_t g = 0; g < groups_; ++g) {
+    const Lanes u = eccentricity_ + along_[g], v = aside_[g];
+    const uint32_t k = g * kLanes;
+    const LaneIntegers from_old = DistanceBuckets(u * u + v * v, kFarBuckets - 1);
+    for (uint32_t lane = 0; lane < kLanes; ++lane) {
+      far_bucket_[k + lane] = static_cast<uint8_t>(from_old[lane]);
     }
-    weight_[k] = detail::FastExp2(std::clamp(static_cast<double>(score), -30.0, 30.0));
-    total = total + weight_[k];
+    Lanes score = LookUp(far.data(), from_old) +
+                  Lanes{table[place_of_[k]], table[place_of_[k + 1]], table[place_of_[k + 2]],
+                        table[place_of_[k + 3]]};
+    for (uint32_t n = 0; n < neighbours_; ++n) {
+      const Lanes du = u - neighbours[n][0], dv = v - neighbours[n][1];
+      const LaneIntegers bucket = DistanceBuckets(du * du + dv * dv, kNearBuckets - 1);
+      for (uint32_t lane = 0; lane < kLanes; ++lane) {
+        near_bucket_[n][k + lane] = static_cast<uint8_t>(bucket[lane]);
+      }
+      score = score + LookUp(pair[ring_bucket_[n]].data(), bucket);
+    }
+    weight_[g] = FastExp2(LesserOf(GreaterOf(score, AllLanes(-30)), AllLanes(30)));
+    if (g + 1 == groups_) {
+      for (uint32_t lane = cells_ - k; lane < kLanes; ++lane) weight_[g][lane] = 0;
+    }
+    total = total + weight_[g];
   }
-  for (size_t k = 0; k < cells_.size(); ++k) weight_[k] = weight_[k] / total;
+  total_ = SumOf(total);
+}
+
+Lanes TangentDensity::CentreOn(uint32_t axis, uint32_t group) const {
+  const float u = static_cast<float>(spacing_ * along_axis_[axis]);
+  const float v = static_cast<float>(spacing_ * aside_axis_[axis]);
+  return (eccentricity_ + along_[group]) * u + aside_[group] * v;
 }
 
 double TangentDensity::WidthOn(uint32_t axis) const {
@@ -104,62 +136,78 @@ double TangentDensity::WidthOn(uint32_t axis) const {
 }
 
 void TangentDensity::First(uint32_t axis, AxisDensity* density) const {
-  double lo = centre_[0][axis], hi = lo, width = WidthOn(axis);
-  for (size_t k = 0; k < cells_.size(); ++k) {
-    lo = std::min(lo, centre_[k][axis]);
-    hi = std::max(hi, centre_[k][axis]);
-  }
-  density->Start(lo - width, hi + width);
-  for (size_t k = 0; k < cells_.size(); ++k) density->Add(centre_[k][axis], width, weight_[k]);
+  const double middle = spacing_ * static_cast<double>(eccentricity_) * along_axis_[axis];
+  const double side = spacing_ * (static_cast<double>(half_along_) * std::fabs(along_axis_[axis]) +
+                                  static_cast<double>(half_aside_) * std::fabs(aside_axis_[axis]));
+  density->Start(middle - side, middle + side, WidthOn(axis));
+  for (uint32_t g = 0; g < groups_; ++g) density->Add(CentreOn(axis, g), weight_[g]);
   density->Finish();
 }
 
 void TangentDensity::Second(uint32_t axis, uint32_t first, double first_offset,
                             AxisDensity* density) {
-  first_axis_ = first;
-  second_axis_ = axis;
-  first_offset_ = first_offset;
-  double width = WidthOn(first);
-  slope_ = -normal_[first] * normal_[axis] / Flat(normal_, first);
-  double left = Flat(normal_, axis) - slope_ * slope_ * Flat(normal_, first);
+  const double slope = -normal_[first] * normal_[axis] / Flat(normal_, first);
+  const double left = Flat(normal_, axis) - slope * slope * Flat(normal_, first);
   second_width_ = reach_ * spacing_ * std::sqrt(left > 0.01 ? left : 0.01);
-  double lo = 1e300, hi = -1e300;
-  for (size_t k = 0; k < cells_.size(); ++k) {
-    double miss = std::fabs(first_offset - centre_[k][first]) / width;
-    conditional_[k] = miss < 1 ? weight_[k] * (1 - miss) : weight_[k] * 1e-6;
-    if (miss >= 1) continue;
-    double mean = centre_[k][axis] + slope_ * (first_offset - centre_[k][first]);
-    lo = std::min(lo, mean);
-    hi = std::max(hi, mean);
+  const float per_width = static_cast<float>(1 / WidthOn(first));
+  const float offset = static_cast<float>(first_offset);
+  possible_count_ = 0;
+  float lo = 1e30F, hi = -1e30F;
+  for (uint32_t g = 0; g < groups_; ++g) {
+    const Lanes miss = offset - CentreOn(first, g);
+    const Lanes share = 1 - Magnitude(miss) * per_width;
+    const Lanes mass = weight_[g] * share;
+    const Lanes mean = CentreOn(axis, g) + static_cast<float>(slope) * miss;
+    for (uint32_t lane = 0; lane < kLanes; ++lane) {
+      possible_[possible_count_] = {g * kLanes + lane, mean[lane], mass[lane]};
+      if (mass[lane] > 0) ++possible_count_;
+    }
   }
-  if (lo > hi) lo = hi = centre_[cells_.size() / 2][axis];
-  density->Start(lo - second_width_, hi + second_width_);
-  for (size_t k = 0; k < cells_.size(); ++k) {
-    if (std::fabs(first_offset - centre_[k][first]) >= width) continue;
-    double mean = centre_[k][axis] + slope_ * (first_offset - centre_[k][first]);
-    density->Add(mean, second_width_, conditional_[k]);
+  for (uint32_t i = 0; i < possible_count_; ++i) {
+    lo = std::min(lo, possible_[i].mean);
+    hi = std::max(hi, possible_[i].mean);
+  }
+  if (possible_count_ == 0) {
+    lo = hi = static_cast<float>(spacing_ * static_cast<double>(eccentricity_) * along_axis_[axis]);
+  }
+  density->Start(static_cast<double>(lo), static_cast<double>(hi), second_width_);
+  for (uint32_t i = 0; i < possible_count_; i += kLanes) {
+    Lanes mean = AllLanes(lo), mass = AllLanes(0);
+    for (uint32_t lane = 0; lane < kLanes && i + lane < possible_count_; ++lane) {
+      mean[lane] = possible_[i + lane].mean;
+      mass[lane] = possible_[i + lane].mass;
+    }
+    density->Add(mean, mass);
   }
   density->Finish();
 }
 
 void TangentDensity::Learn(double second_offset) {
-  double total = 0;
-  for (size_t k = 0; k < cells_.size(); ++k) {
-    double mean = centre_[k][second_axis_] + slope_ * (first_offset_ - centre_[k][first_axis_]);
-    double miss = std::fabs(second_offset - mean) / second_width_;
-    conditional_[k] = miss < 1 ? conditional_[k] * (1 - miss) : 0;
-    total = total + conditional_[k];
+  const float offset = static_cast<float>(second_offset);
+  const float per_width = static_cast<float>(1 / second_width_);
+  float found = 0;
+  for (uint32_t i = 0; i < possible_count_; ++i) {
+    Possible& cell = possible_[i];
+    cell.mass *= std::max(0.0F, 1 - std::fabs(offset - cell.mean) * per_width);
+    found += cell.mass;
   }
-  if (!(total > 0)) return;
+  if (!(found > 0)) return;
+  const float expected = -kLearning / total_, seen = kLearning / found;
+  for (uint32_t g = 0; g < groups_; ++g) weight_[g] = weight_[g] * expected;
+  for (uint32_t i = 0; i < possible_count_; ++i) {
+    const Possible& cell = possible_[i];
+    weight_[cell.cell / kLanes][cell.cell % kLanes] += seen * cell.mass;
+  }
   auto& table = place_[context_];
   auto& far = far_[count_context_];
   PairTable& pair = pair_[count_context_];
-  for (size_t k = 0; k < cells_.size(); ++k) {
-    float surprise = kLearning * static_cast<float>(conditional_[k] / total - weight_[k]);
-    table[cells_[k].place] += 2 * surprise;
+  for (uint32_t k = 0; k < cells_; ++k) {
+    const float surprise = weight_[k / kLanes][k % kLanes];
+    if (std::fabs(surprise) < kLeastLearned) continue;
+    table[place_of_[k]] += 2 * surprise;
     far[far_bucket_[k]] += surprise;
-    for (size_t n = 0; n < neighbours_; ++n) {
-      pair[ring_bucket_[n]][near_bucket_[k][n]] += surprise;
+    for (uint32_t n = 0; n < neighbours_; ++n) {
+      pair[ring_bucket_[n]][near_bucket_[n][k]] += surprise;
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/entropy/axis_density.h"
+#include "engine/entropy/lanes.h"
 #include "engine/entropy/learned_state.h"
 #include "engine/geometry/ring_shape.h"
 
@@ -34,40 +35,49 @@ class TangentDensity {
 
  private:
   /// Of the grid of step 2.
-  static constexpr size_t kAlong = 15, kAside = 11;
-  static constexpr size_t kFolded = kAlong * (kAside / 2 + 1);
-  static constexpr size_t kMostCells = (2 * kAlong - 1) * (2 * kAside - 1);
-  /// A cell of the grid: its offset from the expected place in spacings, and where its weight is.
-  struct Cell {
-    double along, aside;
-    uint16_t place;
-  };
+  static constexpr uint32_t kAlong = 15, kAside = 11;
+  static constexpr uint32_t kFolded = kAlong * (kAside / 2 + 1);
+  static constexpr uint32_t kMostGroups = ((2 * kAlong - 1) * (2 * kAside - 1) + 3) / kLanes;
+  static constexpr uint32_t kMostCells = kMostGroups * kLanes;
   static constexpr uint32_t kEccentricities = 6, kCounts = 4;
   static constexpr uint32_t kFarBuckets = 28;   ///< of the distance to the old vertex
   static constexpr uint32_t kNearBuckets = 28;  ///< of the distance to a neighbour
   static constexpr uint32_t kRingBuckets = 6;   ///< of that neighbour's distance to the old vertex
-  static constexpr size_t kMostNeighbours = 12;
+  static constexpr uint32_t kMostNeighbours = 12;
   using PairTable = std::array<std::array<float, kNearBuckets>, kRingBuckets>;
+  /// A cell that the offset along the first axis leaves possible.
+  struct Possible {
+    uint32_t cell;
+    float mean, mass;
+  };
+  void Weigh(const std::array<std::array<float, 2>, kMostNeighbours>& neighbours);
+  Lanes CentreOn(uint32_t axis, uint32_t group) const;
   double WidthOn(uint32_t axis) const;
 
-  double reach_;  ///< how far a cell reaches along the surface, in spacings
-  std::vector<Cell> cells_;
+  double reach_;            ///< how far a cell reaches along the surface, in spacings
+  uint32_t cells_ = 0;      ///< of the grid
+  uint32_t groups_ = 0;     ///< of four cells; the last is filled up with cells of no weight
+  float half_along_, half_aside_;  ///< of the grid, in spacings
+  // Offset of each cell from the expected place in spacings, and where its weight is.
+  Lanes along_[kMostGroups], aside_[kMostGroups];
+  std::array<uint16_t, kMostCells> place_of_;
   std::vector<std::array<float, kFolded>> place_;  ///< log weights, per context
   std::vector<std::array<float, kFarBuckets>> far_;
   std::vector<PairTable> pair_;
 
   // The vertex under way.
   double spacing_ = 1;
-  Vector3 normal_{0, 0, 1};
-  std::array<Vector3, kMostCells> centre_;
-  std::array<double, kMostCells> weight_, conditional_;
+  Vector3 normal_{0, 0, 1}, along_axis_{1, 0, 0}, aside_axis_{0, 1, 0};
+  float eccentricity_ = 0;
+  Lanes weight_[kMostGroups];
+  float total_ = 1;
   std::array<uint8_t, kMostCells> far_bucket_;
-  std::array<std::array<uint8_t, kMostNeighbours>, kMostCells> near_bucket_;
+  std::array<std::array<uint8_t, kMostCells>, kMostNeighbours> near_bucket_;
   std::array<uint8_t, kMostNeighbours> ring_bucket_;
-  size_t neighbours_ = 0;
-  uint32_t context_ = 0, count_context_ = 0;
-  uint32_t second_axis_ = 0, first_axis_ = 0;
-  double slope_ = 0, first_offset_ = 0, second_width_ = 1;
+  uint32_t neighbours_ = 0, context_ = 0, count_context_ = 0;
+  double second_width_ = 1;
+  std::array<Possible, kMostCells> possible_;
+  uint32_t possible_count_ = 0;
 };
 
 }  // namespace folprom

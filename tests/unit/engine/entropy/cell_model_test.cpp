@@ -115,12 +115,11 @@ TEST(CellModel, GoodPredictionsCostFewerBitsThanPoorOnes) {
 TEST(CellModel, MeasuredDensityHelpsAndComesBack) {
   // Two peaks, which no logistic density has.
   AxisDensity axis;
-  axis.Start(-40, 40);
-  axis.Add(-30, 3, 1);
-  axis.Add(30, 3, 1);
+  axis.Start(-30, 30, 3);
+  axis.Add(Lanes{-30, 30, 0, 0}, Lanes{1, 1, 0, 0});
   axis.Finish();
   AxisDensity flat;
-  flat.Start(-40, 40);
+  flat.Start(-40, 40, 0);
   flat.Finish();
   std::mt19937_64 random(3);
   std::vector<int32_t> values;

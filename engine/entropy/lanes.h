@@ -1,0 +1,36 @@
+// Four floats at a time, alike on every machine: each lane is computed on its own, and sums over
+// lanes have one order.
+#pragma once
+
+#include <cstdint>
+
+namespace folprom {
+
+using Lanes = float __attribute__((vector_size(16)));
+using LaneIntegers = int32_t __attribute__((vector_size(16)));
+inline constexpr uint32_t kLanes = 4;
+
+inline Lanes AllLanes(float value) { return Lanes{value, value, value, value}; }
+inline Lanes LesserOf(Lanes a, Lanes b) { return a < b ? a : b; }
+inline Lanes GreaterOf(Lanes a, Lanes b) { return a > b ? a : b; }
+inline Lanes Magnitude(Lanes a) { return GreaterOf(a, -a); }
+inline float SumOf(Lanes a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+/// Towards zero.
+inline LaneIntegers WholeOf(Lanes a) { return __builtin_convertvector(a, LaneIntegers); }
+inline Lanes FloatsOf(LaneIntegers a) { return __builtin_convertvector(a, Lanes); }
+inline Lanes LookUp(const float* table, LaneIntegers at) {
+  return Lanes{table[at[0]], table[at[1]], table[at[2]], table[at[3]]};
+}
+
+/// 2^x for |x| <= 60, relative error below 1e-4.
+inline Lanes FastExp2(Lanes x) {
+  constexpr float kShift = 64;
+  const LaneIntegers whole = WholeOf(x + kShift);
+  const Lanes f = x + kShift - FloatsOf(whole);
+  const Lanes value =
+      1 + f * (0.69314718F + f * (0.24022651F + f * (0.05550410F + f * 0.00961812F)));
+  const LaneIntegers exponent = (whole - static_cast<int32_t>(kShift) + 127) << 23;
+  return value * reinterpret_cast<Lanes>(exponent);
+}
+
+}  // namespace folprom

@@ -76,9 +76,8 @@ DueSigns DueCoder::SignsOf(SubtreeLod& lod, uint32_t set, double spacing) const 
   const double fourth = ring.spacing * ring.spacing * ring.height_range * settings_.longest;
   signs.distortion = std::sqrt(std::sqrt(fourth)) / least_spacing_;
   signs.asked = lod.sets[set].asked + 1 == step_;
-  const Complex& complex = lod.complex;
-  for (uint32_t h = complex.FirstHalfEdge(set); h != kNone; h = complex.half_edge(h).next) {
-    const SetRecord& other = lod.sets[complex.half_edge(h).target];
+  for (const auto& spoke : lod.complex.Spokes(set)) {
+    const SetRecord& other = lod.sets[spoke.target];
     if (other.is_leaf) continue;
     if (other.asked == step_) ++signs.waiting;
     if (other.asked == 0) ++signs.split;

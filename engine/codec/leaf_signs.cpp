@@ -9,8 +9,7 @@ LeafSigns LeafSignsOf(SubtreeLod& lod, uint32_t set, double spacing) {
   signs.spacing = spacing;
   signs.scale = static_cast<double>(lod.sets[set].scale);
   const Complex& complex = lod.complex;
-  for (uint32_t h = complex.FirstHalfEdge(set); h != kNone; h = complex.half_edge(h).next) {
-    const uint32_t other = complex.half_edge(h).target;
+  for (const auto& [other, half_edge] : complex.Spokes(set)) {
     if (!lod.sets[other].is_leaf) {
       ++signs.others;
       continue;
@@ -24,8 +23,7 @@ LeafSigns LeafSignsOf(SubtreeLod& lod, uint32_t set, double spacing) {
     signs.leaf_distance = signs.leaf_distance / signs.leaves;
     signs.leaf_spacing = signs.leaf_spacing / signs.leaves;
   }
-  const RingShape ring = lod.ShapeAround(set);
-  signs.bend = ring.height_range / ring.spacing;
+  signs.bend = lod.HeightRange(set) / spacing;
   return signs;
 }
 

@@ -251,11 +251,7 @@ void SubtreeCoder::CodeBorder(Coder& coder, uint32_t first, uint32_t second,
   BorderSplit split;
   split.first = lod_.positions[first];
   split.second = lod_.positions[second];
-  const Complex& complex = lod_.complex;
-  for (uint32_t h = complex.FirstHalfEdge(first);
-       h != kNone && split.degree < BorderCoder::kMostDegree; h = complex.half_edge(h).next) {
-    ++split.degree;
-  }
+  split.degree = std::min(lod_.complex.Degree(first), BorderCoder::kMostDegree);
   split.connected = split_coder_.last_connected();
   if constexpr (Coder::kEncoding) {
     split.first_touches = truth->FirstTouchesBorder();

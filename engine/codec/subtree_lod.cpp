@@ -1,37 +1,55 @@
 #include "engine/codec/subtree_lod.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace folprom {
 
 double SubtreeLod::Spacing(uint32_t set) const {
+  const auto spokes = complex.Spokes(set);
+  if (spokes.empty()) return static_cast<double>(sets[set].scale);
   double sum = 0;
-  uint32_t count = 0;
   const Int3& centre = positions[set];
-  for (uint32_t h = complex.FirstHalfEdge(set); h != kNone; h = complex.half_edge(h).next) {
-    Vector3 d = Difference(positions[complex.half_edge(h).target], centre);
+  for (const auto& spoke : spokes) {
+    const Vector3 d = Difference(positions[spoke.target], centre);
     sum = sum + std::sqrt(Dot(d, d));
-    ++count;
   }
-  return count == 0 ? static_cast<double>(sets[set].scale) : sum / count;
+  return sum / static_cast<double>(spokes.size());
 }
 
 const std::vector<Int3>& SubtreeLod::Ring(uint32_t set) {
   ring_.clear();
-  for (uint32_t h = complex.FirstHalfEdge(set); h != kNone; h = complex.half_edge(h).next) {
-    ring_.push_back(positions[complex.half_edge(h).target]);
-  }
+  for (const auto& spoke : complex.Spokes(set)) ring_.push_back(positions[spoke.target]);
   return ring_;
 }
 
 RingShape SubtreeLod::ShapeAround(uint32_t set) {
   const Int3& centre = positions[set];
   FanSums fan;
-  for (uint32_t c = complex.FirstCorner(set); c != kNone; c = complex.corner(c).next) {
-    fan.AddFace(Difference(positions[complex.corner(NextCorner(c)).vertex], centre),
-                Difference(positions[complex.corner(PreviousCorner(c)).vertex], centre));
+  for (const uint32_t corner : complex.Corners(set)) {
+    const auto [a, b] = complex.Opposite(corner);
+    fan.AddFace(Difference(positions[a], centre), Difference(positions[b], centre));
   }
   return MeasureRing(centre, Ring(set), fan, static_cast<double>(sets[set].scale));
+}
+
+double SubtreeLod::HeightRange(uint32_t set) const {
+  const Int3& centre = positions[set];
+  Vector3 normal{0, 0, 0};
+  for (const uint32_t corner : complex.Corners(set)) {
+    const auto [a, b] = complex.Opposite(corner);
+    const Vector3 cross =
+        Cross(Difference(positions[a], centre), Difference(positions[b], centre));
+    for (size_t i = 0; i < 3; ++i) normal[i] = normal[i] + cross[i];
+  }
+  double low = 0, high = 0;
+  for (const auto& spoke : complex.Spokes(set)) {
+    const double height = Dot(Difference(positions[spoke.target], centre), normal);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  const double length = std::sqrt(Dot(normal, normal));
+  return length > 0 ? (high - low) / length : 0;
 }
 
 }  // namespace folprom

@@ -34,6 +34,8 @@ class SubtreeLod {
   /// Positions of the neighbours, valid until the next call.
   const std::vector<Int3>& Ring(uint32_t set);
   RingShape ShapeAround(uint32_t set);
+  /// Of the set and its neighbours across the surface, 0 without faces; lattice units.
+  double HeightRange(uint32_t set) const;
 
  private:
   std::vector<Int3> ring_;

@@ -135,8 +135,7 @@ void SubtreeCoder::OrderAlongSurface() {
     for (size_t i = 0; i < reached.size(); ++i) {
       const uint32_t set = reached[i];
       if (state[set] == 2) ordered.push_back(set);
-      for (uint32_t h = complex.FirstHalfEdge(set); h != kNone; h = complex.half_edge(h).next) {
-        const uint32_t other = complex.half_edge(h).target;
+      for (const auto& [other, half_edge] : complex.Spokes(set)) {
         if (state[other] >= 2) continue;
         state[other] = state[other] == 1 ? 2 : 3;
         reached.push_back(other);

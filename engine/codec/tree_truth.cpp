@@ -2,18 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace folprom {
 namespace {
 
-/// Faces inside the subtree, then the inner edges of cross faces as triples (a, b, b).
-std::vector<Face> InnerTriples(const SubtreeChunk& chunk, uint32_t subtree) {
-  std::vector<Face> triples(chunk.faces.begin(), chunk.faces.end());
+/// Where each vertex stands in an order.
+std::vector<uint32_t> PlacesIn(const std::vector<uint32_t>& order) {
+  std::vector<uint32_t> place(order.size());
+  for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  return place;
+}
+
+/// Faces inside the subtree, then the inner edges of cross faces as triples (a, b, b), of places.
+/// Faces go by their first place: those of a vertex set lie close together in memory, which the
+/// oracle's scans are bound by.
+std::vector<Face> InnerTriples(const SubtreeChunk& chunk, uint32_t subtree,
+                               const std::vector<uint32_t>& place) {
+  const auto first_place = [&](const Face& face) {
+    return std::min({place[face[0]], place[face[1]], place[face[2]]});
+  };
+  std::vector<uint32_t> begin(place.size() + 1, 0);
+  for (const Face& face : chunk.faces) ++begin[first_place(face) + 1];
+  for (size_t i = 0; i < place.size(); ++i) begin[i + 1] += begin[i];
+  std::vector<Face> triples(chunk.faces.size());
+  for (const Face& face : chunk.faces) {
+    triples[begin[first_place(face)]++] = {place[face[0]], place[face[1]], place[face[2]]};
+  }
   for (const CrossFace& face : chunk.cross_faces) {
     for (size_t i = 0; i < 3; ++i) {
       const VertexRef &a = face.vertex[i], &b = face.vertex[(i + 1) % 3];
       if (a.subtree == subtree && b.subtree == subtree && a.local != b.local) {
-        triples.push_back({a.local, b.local, b.local});
+        triples.push_back({place[a.local], place[b.local], place[b.local]});
       }
     }
   }
@@ -28,7 +48,10 @@ TreeTruth::TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree&
       tree_(tree),
       parameters_(parameters),
       real_faces_(chunk.faces.size()),
-      oracle_(static_cast<uint32_t>(chunk.positions.size()), InnerTriples(chunk, subtree)) {
+      place_(PlacesIn(tree.order())),
+      oracle_(static_cast<uint32_t>(place_.size()), InnerTriples(chunk, subtree, place_)) {
+  all_places_.resize(place_.size());
+  std::iota(all_places_.begin(), all_places_.end(), 0u);
   std::vector<bool> at_border(chunk.positions.size(), false);
   for (const CrossFace& face : chunk.cross_faces) {
     for (const VertexRef& vertex : face.vertex) {
@@ -74,17 +97,20 @@ void TreeTruth::BeginBinarySplit(uint32_t set, std::span<const uint32_t> first,
   first_border_ = BorderVertices(first) > 0;
   second_border_ = BorderVertices(second) > 0;
   size_t sizes[2] = {0, 0};
-  const std::vector<uint32_t>* places[2] = {&first_places_, &second_places_};
+  const std::vector<uint32_t>* children[2] = {&first_places_, &second_places_};
   uint32_t first_child = tree_.node(parent_).first_child;
   for (size_t side = 0; side < 2; ++side) {
-    for (uint32_t place : *places[side]) {
-      sizes[side] += tree_.VerticesOf(first_child + order_[place]).size();
+    for (uint32_t child : *children[side]) {
+      const SetTree::Node& node = tree_.node(first_child + order_[child]);
+      sizes[side] += node.end - node.begin;
     }
   }
   bool second_is_smaller = sizes[1] <= sizes[0];
   moved_.clear();
-  for (uint32_t place : second_is_smaller ? second_places_ : first_places_) {
-    moved_.push_back(tree_.VerticesOf(first_child + order_[place]));
+  const std::span<const uint32_t> all(all_places_);
+  for (uint32_t child : second_is_smaller ? second_places_ : first_places_) {
+    const SetTree::Node& node = tree_.node(first_child + order_[child]);
+    moved_.push_back(all.subspan(node.begin, node.end - node.begin));
   }
   oracle_.Scan(set, moved_, second_is_smaller);
 }
@@ -114,7 +140,7 @@ FaceCensus TreeTruth::CountFaces(const Complex& complex) const {
 double TreeTruth::LargestDistance(const std::vector<Int3>& positions) const {
   double largest2 = 0;
   for (uint32_t v = 0; v < chunk_.positions.size(); ++v) {
-    Vector3 d = Difference(chunk_.positions[v], positions[oracle_.VertexOf(v)]);
+    Vector3 d = Difference(chunk_.positions[v], positions[oracle_.VertexOf(place_[v])]);
     largest2 = std::max(largest2, Dot(d, d));
   }
   return std::sqrt(largest2);
@@ -122,7 +148,7 @@ double TreeTruth::LargestDistance(const std::vector<Int3>& positions) const {
 
 std::vector<uint32_t> TreeTruth::FinalVertices() const {
   std::vector<uint32_t> result(chunk_.positions.size());
-  for (uint32_t v = 0; v < result.size(); ++v) result[v] = oracle_.VertexOf(v);
+  for (uint32_t v = 0; v < result.size(); ++v) result[v] = oracle_.VertexOf(place_[v]);
   return result;
 }
 

@@ -54,6 +54,8 @@ class TreeTruth final : public SubtreeTruth {
   const SetTree& tree_;
   const CodecParameters& parameters_;
   size_t real_faces_;
+  // The oracle numbers vertices by their place in tree.order().
+  std::vector<uint32_t> place_, all_places_;
   SplitOracle oracle_;
   std::vector<uint32_t> border_before_;  ///< border vertices among the first i of tree_.order()
   std::vector<uint32_t> node_of_set_;    ///< node of the tree, valid for sets that are one node

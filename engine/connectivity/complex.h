@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "engine/connectivity/block_lists.h"
 #include "engine/mesh/types.h"
 #include "folprom/result.h"
 
@@ -14,76 +16,70 @@ namespace folprom {
 inline constexpr uint32_t kNone = 0xffffffff;
 
 /// Vertices, edges and faces that only ever grow in number. An edge is two half-edges, 2e and 2e+1;
-/// a face has three corners, 3f .. 3f+2. Half-edges and corners of a vertex are doubly linked
-/// lists, so each moves from one vertex to another in constant time, whatever the degree of either
-/// end. Lists are in order of insertion at the front: the same calls give the same order.
+/// a face has three corners, 3f .. 3f+2. Half-edges and corners of a vertex are contiguous, and each
+/// knows its place there, so that it moves from one vertex to another in constant time, whatever the
+/// degree of either end. The same calls give the same order.
 class Complex {
  public:
-  struct HalfEdge {
+  /// A half-edge as its vertex sees it.
+  struct Spoke {
     uint32_t target;
-    uint32_t next;
-    uint32_t previous;
-  };
-  struct Corner {
-    uint32_t vertex;
-    uint32_t next;
-    uint32_t previous;
+    uint32_t half_edge;
   };
 
   uint32_t AddVertex() {
-    heads_.push_back({kNone, kNone, 0});
-    return static_cast<uint32_t>(heads_.size() - 1);
+    spokes_.AddList();
+    corners_of_.AddList();
+    return spokes_.size() - 1;
   }
   /// Returns the edge; half-edge 2e starts at `a`.
   uint32_t AddEdge(uint32_t a, uint32_t b) {
-    uint32_t edge = static_cast<uint32_t>(half_edges_.size() / 2);
-    half_edges_.push_back({b, kNone, kNone});
-    half_edges_.push_back({a, kNone, kNone});
-    LinkHalfEdge(2 * edge, a);
-    LinkHalfEdge(2 * edge + 1, b);
+    const uint32_t edge = edge_count();
+    half_edges_.push_back({b, spokes_.Append(a, {b, 2 * edge})});
+    half_edges_.push_back({a, spokes_.Append(b, {a, 2 * edge + 1})});
     return edge;
   }
   /// Returns the face.
   uint32_t AddFace(uint32_t a, uint32_t b, uint32_t c) {
-    uint32_t face = static_cast<uint32_t>(corners_.size() / 3);
-    for (uint32_t vertex : {a, b, c}) corners_.push_back({vertex, kNone, kNone});
-    for (uint32_t i = 0; i < 3; ++i) LinkCorner(3 * face + i, corners_[3 * face + i].vertex);
+    const uint32_t face = face_count();
+    for (uint32_t vertex : {a, b, c}) {
+      const uint32_t corner = static_cast<uint32_t>(corners_.size());
+      corners_.push_back({vertex, corners_of_.Append(vertex, corner)});
+    }
     return face;
   }
   /// The half-edge that starts at `from` now starts at `to`.
   void MoveHalfEdge(uint32_t half_edge, uint32_t from, uint32_t to) {
-    const HalfEdge& moved = half_edges_[half_edge];
-    if (moved.previous == kNone) {
-      heads_[from].half_edge = moved.next;
-    } else {
-      half_edges_[moved.previous].next = moved.next;
-    }
-    if (moved.next != kNone) half_edges_[moved.next].previous = moved.previous;
-    --heads_[from].degree;
-    LinkHalfEdge(half_edge, to);
-    half_edges_[half_edge ^ 1].target = to;
+    HalfEdge& moved = half_edges_[half_edge];
+    half_edges_[spokes_.Of(from).back().half_edge].place = moved.place;
+    spokes_.Remove(from, moved.place);
+    moved.place = spokes_.Append(to, {moved.target, half_edge});
+    HalfEdge& twin = half_edges_[half_edge ^ 1];
+    twin.target = to;
+    spokes_.At(moved.target, twin.place).target = to;
   }
   void MoveCorner(uint32_t corner, uint32_t from, uint32_t to) {
     Corner& moved = corners_[corner];
-    if (moved.previous == kNone) {
-      heads_[from].corner = moved.next;
-    } else {
-      corners_[moved.previous].next = moved.next;
-    }
-    if (moved.next != kNone) corners_[moved.next].previous = moved.previous;
-    moved.vertex = to;
-    LinkCorner(corner, to);
+    corners_[corners_of_.Of(from).back()].place = moved.place;
+    corners_of_.Remove(from, moved.place);
+    moved = {to, corners_of_.Append(to, corner)};
   }
 
-  uint32_t vertex_count() const { return static_cast<uint32_t>(heads_.size()); }
+  uint32_t vertex_count() const { return spokes_.size(); }
   uint32_t edge_count() const { return static_cast<uint32_t>(half_edges_.size() / 2); }
   uint32_t face_count() const { return static_cast<uint32_t>(corners_.size() / 3); }
-  uint32_t FirstHalfEdge(uint32_t vertex) const { return heads_[vertex].half_edge; }
+  /// Valid until the next change.
+  std::span<const Spoke> Spokes(uint32_t vertex) const { return spokes_.Of(vertex); }
+  std::span<const uint32_t> Corners(uint32_t vertex) const { return corners_of_.Of(vertex); }
   /// Number of edges.
-  uint32_t Degree(uint32_t vertex) const { return heads_[vertex].degree; }
-  uint32_t FirstCorner(uint32_t vertex) const { return heads_[vertex].corner; }
-  const HalfEdge& half_edge(uint32_t index) const { return half_edges_[index]; }
-  const Corner& corner(uint32_t index) const { return corners_[index]; }
+  uint32_t Degree(uint32_t vertex) const { return spokes_.SizeOf(vertex); }
+  uint32_t VertexOf(uint32_t corner) const { return corners_[corner].vertex; }
+  /// The two others of the corner's face, in the order of its orientation.
+  std::array<uint32_t, 2> Opposite(uint32_t corner) const {
+    const uint32_t first = corner / 3 * 3, place = corner - first;
+    return {corners_[first + (place == 2 ? 0 : place + 1)].vertex,
+            corners_[first + (place == 0 ? 2 : place - 1)].vertex};
+  }
   /// The three vertices of a face in the order of its orientation.
   Face face(uint32_t index) const {
     return {corners_[3 * index].vertex, corners_[3 * index + 1].vertex,
@@ -95,28 +91,17 @@ class Complex {
   }
 
  private:
-  struct Heads {
-    uint32_t half_edge;
-    uint32_t corner;
-    uint32_t degree;
+  struct HalfEdge {
+    uint32_t target;
+    uint32_t place;  ///< among the spokes of the vertex where it starts
   };
-  void LinkHalfEdge(uint32_t half_edge, uint32_t vertex) {
-    uint32_t first = heads_[vertex].half_edge;
-    half_edges_[half_edge].next = first;
-    half_edges_[half_edge].previous = kNone;
-    if (first != kNone) half_edges_[first].previous = half_edge;
-    heads_[vertex].half_edge = half_edge;
-    ++heads_[vertex].degree;
-  }
-  void LinkCorner(uint32_t corner, uint32_t vertex) {
-    uint32_t first = heads_[vertex].corner;
-    corners_[corner].next = first;
-    corners_[corner].previous = kNone;
-    if (first != kNone) corners_[first].previous = corner;
-    heads_[vertex].corner = corner;
-  }
+  struct Corner {
+    uint32_t vertex;
+    uint32_t place;  ///< among the vertex's corners
+  };
 
-  std::vector<Heads> heads_;
+  BlockLists<Spoke> spokes_;
+  BlockLists<uint32_t> corners_of_;
   std::vector<HalfEdge> half_edges_;
   std::vector<Corner> corners_;
 };

@@ -8,86 +8,82 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "engine/connectivity/fan.h"
+#include "engine/connectivity/fan_features.h"
 #include "engine/entropy/mixed_model.h"
-#include "engine/geometry/local_frame.h"
 
 namespace folprom {
 
 class FanModel {
  public:
-  /// What is known of a neighbour.
-  struct Spoke {
-    Vector3 position;      ///< relative to the first child, lattice units
-    uint32_t degree;       ///< number of its edges before the split
-    double age;            ///< its number over the number of vertices, 0 .. 1
-    bool younger;          ///< than the vertex that is split
-    uint32_t splits_past;  ///< splits since it was split itself, or made
-  };
-
   FanModel();
 
   /// Codes the cut. spokes: by place, the outside has none. second: the second child relative to
   /// the first.
   template <class Coder>
-  FanCut Code(Coder& coder, const Fan& fan, std::span<const Spoke> spokes, const Vector3& second,
-              FanCut truth);
+  FanCut Code(Coder& coder, const Fan& fan, std::span<const FanSpoke> spokes,
+              const Vector3& second, FanCut truth);
   void Visit(LearnedStateVisitor& visitor);
 
  private:
-  static constexpr uint32_t kMost = Fan::kMostPlaces;
-  /// A value between two neighbouring weights.
-  struct Term {
-    uint16_t weight;
-    float share;  ///< of the weight after it
+  using Features = FanFeatures;
+  static constexpr uint32_t kMost = Fan::kMostPlaces, kGroups = Features::kGroups;
+  static constexpr uint32_t kMostArc = 11;
+  // Where the weights of each quantity begin. The shapes of triangles have one more, for those that
+  // are turned over.
+  static constexpr uint32_t kKnots = Features::kKnots, kAgeKnots = Features::kAgeKnots;
+  static constexpr uint32_t kShapeFirst = 0, kShapeSecond = kShapeFirst + kKnots + 1,
+                            kShapeNew = kShapeSecond + kKnots + 1,
+                            kAnglesFirst = kShapeNew + kKnots + 1,
+                            kAnglesPivotFirst = kAnglesFirst + kKnots,
+                            kAnglesPivotSecond = kAnglesPivotFirst + kKnots,
+                            kAnglePivot = kAnglesPivotSecond + kKnots,
+                            kBendFirst = kAnglePivot + kKnots, kBendSecond = kBendFirst + kKnots,
+                            kBendPivot = kBendSecond + kKnots, kBendNew = kBendPivot + kKnots,
+                            kLeanFirst = kBendNew + kKnots, kLeanSecond = kLeanFirst + kKnots,
+                            kDegree = kLeanSecond + kKnots,
+                            kAge = kDegree + Features::kMostDegree + 1,
+                            kRest = kAge + 2 * kAgeKnots, kArcFirst = kRest + kAgeKnots,
+                            kArcSecond = kArcFirst + kMostArc + 1,
+                            kOutside = kArcSecond + kMostArc + 1, kWeights = kOutside + 3;
+  /// A weight that stays 0. There is one more behind each weight, since a value lies between two.
+  static constexpr uint32_t kNowhere = kWeights;
+  static constexpr uint32_t kStored = (kWeights + 2 + 7) / 8 * 8;
+  struct Table {
+    uint32_t begin, knots;
   };
-  /// What adds up for one role of a place or face.
+  static const std::array<Table, Features::kRoles> kTables;
+  /// For four places: which weight, and the share of the one after it.
   struct Terms {
-    static constexpr uint32_t kMostTerms = 6;
-    std::array<Term, kMostTerms> term;
-    uint32_t count = 0;
-    double sum = 0;
+    LaneIntegers weight;
+    Lanes share;
   };
-  struct Triangle {
-    Vector3 normal;  ///< as long as twice the area
-    double length = 0;
-    double shape = 0;  ///< 1: equilateral, 0: no area
-  };
-  static Triangle TriangleOf(const Vector3& a, const Vector3& b);
-
-  void Measure(const Fan& fan, std::span<const Spoke> spokes, const Vector3& second);
-  void CollectFaces(const Fan& fan);
-  void CollectSpokes(const Fan& fan);
-  void CollectPivots(const Fan& fan, std::span<const Spoke> spokes);
-  void Add(Terms* terms, uint32_t table, double knot, uint32_t knots);
-  void AddShape(Terms* terms, uint32_t table, const Triangle& triangle, double sign);
-  void AddBend(Terms* terms, uint32_t table, const Triangle& a, const Triangle& b, double sign);
-  void AddAngles(Terms* terms, uint32_t table, double cotangents);
-  void WeighPairs(const Fan& fan);
+  Lanes Interpolate(Table table, Lanes knot, Terms* terms) const;
+  Lanes Sum(uint32_t first, uint32_t last, uint32_t group);
   void Weigh(const Fan& fan);
-  FanCut TakeLikeliest(uint32_t places, double* probability);
+  /// Returns the sum of all.
+  float WeighCuts(const Fan& fan, const AroundFan& as_begin, const AroundFan& as_end, float wrapped);
+  FanCut TakeLikeliest(uint32_t places, float* probability);
   void Learn(const Fan& fan, FanCut truth);
-  void Spread(const Terms& terms, double error);
+  void LearnPairs(const Fan& fan, FanCut truth);
+  void Spread(uint32_t first, uint32_t last, const AroundFan& error);
+  void Add(uint32_t weight, float share, float error);
+  void Step();
 
-  std::vector<float> weights_, gradient_, squares_;
+  alignas(16) std::array<float, kStored> weights_{}, gradient_{}, squares_{};
   MixedModel<2, 1> hit_;
 
   // The fan under way.
-  double spacing2_ = 1;  ///< squared distance of the children
-  Vector3 normal_;
-  std::array<Vector3, kMost> first_to_, second_to_;  ///< the neighbours from each child
-  std::array<Triangle, kMost> of_first_, of_second_, of_both_;
-  // Cotangents of the angles of a face with each child: at its first neighbour, at its second.
-  std::array<double, kMost> first_at_, first_at_next_, second_at_, second_at_next_;
-  std::array<double, kMost> at_first_, at_second_, at_pivot_;  ///< of the new triangle
-  std::array<Terms, kMost> face_first_, face_second_, spoke_first_, spoke_second_;
-  std::array<Terms, kMost> begin_, end_, pivot_;
-  std::array<std::array<Term, kMost>, kMost> bend_;  ///< between the two new triangles
-  std::array<double, kMost> arc_;  ///< by the number of neighbours between the pivots
+  Features features_;
+  uint32_t groups_ = 0;
+  Terms terms_[Features::kRoles][kGroups];
+  Terms bend_[kMost][kGroups];  ///< between the two new triangles
+  /// By the number of neighbours between the pivots, first of cuts that hold place 0 inside.
+  std::array<float, 2 * kMost + kLanes> arc_;
   /// Per cut; of those not asked for yet, while they are coded.
-  std::array<std::array<double, kMost>, kMost> probability_, left_;
+  using Cuts = std::array<std::array<float, kMost>, kMost>;
+  alignas(16) Cuts probability_, left_;
 };
 
 }  // namespace folprom

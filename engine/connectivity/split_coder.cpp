@@ -84,22 +84,20 @@ void SplitCoder::Gather(const Complex& complex, uint32_t vertex) {
   if (slot_of_vertex_.size() < complex.vertex_count()) {
     slot_of_vertex_.resize(complex.vertex_count() + complex.vertex_count() / 2, kNone);
   }
-  for (uint32_t h = complex.FirstHalfEdge(vertex); h != kNone; h = complex.half_edge(h).next) {
-    uint32_t target = complex.half_edge(h).target;
+  for (const auto& [target, half_edge] : complex.Spokes(vertex)) {
     slot_of_vertex_[target] = static_cast<uint32_t>(star_.neighbours.size());
     SplitStar::Neighbour neighbour{};
     neighbour.vertex = target;
-    neighbour.half_edge = h;
+    neighbour.half_edge = half_edge;
     neighbour.first_face = neighbour.new_edge = neighbour.new_face = kNone;
     star_.neighbours.push_back(neighbour);
   }
-  for (uint32_t c = complex.FirstCorner(vertex); c != kNone; c = complex.corner(c).next) {
+  for (const uint32_t corner : complex.Corners(vertex)) {
     uint32_t index = static_cast<uint32_t>(star_.faces.size());
     SplitStar::StarFace face{};
-    face.corner = c;
+    face.corner = corner;
     face.new_face = kNone;
-    uint32_t ends[2] = {complex.corner(NextCorner(c)).vertex,
-                        complex.corner(PreviousCorner(c)).vertex};
+    const std::array<uint32_t, 2> ends = complex.Opposite(corner);
     for (uint32_t i = 0; i < 2; ++i) {
       uint32_t slot = slot_of_vertex_[ends[i]];
       face.end[i] = slot;

@@ -107,7 +107,7 @@ class SplitCoder {
   SplitStar star_;
   Fan fan_;
   FanCut cut_;
-  std::array<FanModel::Spoke, Fan::kMostPlaces> spokes_;
+  std::array<FanSpoke, Fan::kMostPlaces> spokes_;
   std::vector<uint32_t> last_split_;  ///< per vertex: number of vertices when it was split or made
   std::vector<uint32_t> slot_of_vertex_;  ///< index into star_.neighbours, valid where stamped
   std::vector<uint32_t> order_;

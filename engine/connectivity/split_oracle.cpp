@@ -35,16 +35,15 @@ void SplitOracle::AttachInitial(const Complex& complex) {
     uint32_t set[3];
     for (size_t i = 0; i < 3; ++i) set[i] = vertex_of_label_[vertex_label_[faces_[t][i]]];
     for (size_t i = 0; i < 3; ++i) {
-      for (uint32_t h = complex.FirstHalfEdge(set[i]); h != kNone; h = complex.half_edge(h).next) {
+      for (const auto& [target, h] : complex.Spokes(set[i])) {
         // Each pair of corners is met twice over the loop, once in each direction.
-        if (h % 2 == 0 && complex.half_edge(h).target == set[(i + 1) % 3]) ++edge_count_[h / 2];
-        if (h % 2 == 0 && complex.half_edge(h).target == set[(i + 2) % 3]) ++edge_count_[h / 2];
+        if (h % 2 == 0 && target == set[(i + 1) % 3]) ++edge_count_[h / 2];
+        if (h % 2 == 0 && target == set[(i + 2) % 3]) ++edge_count_[h / 2];
       }
     }
     if (set[0] == set[1] || set[1] == set[2] || set[0] == set[2]) continue;
-    for (uint32_t c = complex.FirstCorner(set[0]); c != kNone; c = complex.corner(c).next) {
-      uint32_t next = complex.corner(NextCorner(c)).vertex;
-      uint32_t previous = complex.corner(PreviousCorner(c)).vertex;
+    for (const uint32_t c : complex.Corners(set[0])) {
+      const auto [next, previous] = complex.Opposite(c);
       if ((next == set[1] && previous == set[2]) || (next == set[2] && previous == set[1])) {
         face_label_[t] = c / 3;
         ++face_count_[c / 3];

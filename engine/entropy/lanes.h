@@ -2,7 +2,13 @@
 // lanes have one order.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <cstring>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace folprom {
 
@@ -11,10 +17,26 @@ using LaneIntegers = int32_t __attribute__((vector_size(16)));
 inline constexpr uint32_t kLanes = 4;
 
 inline Lanes AllLanes(float value) { return Lanes{value, value, value, value}; }
+#ifdef __SSE2__
+// The same in one instruction, which g++ 12 does not find by itself.
+inline Lanes LesserOf(Lanes a, Lanes b) { return _mm_min_ps(a, b); }
+inline Lanes GreaterOf(Lanes a, Lanes b) { return _mm_max_ps(a, b); }
+inline Lanes SquareRoot(Lanes a) { return _mm_sqrt_ps(a); }
+#else
 inline Lanes LesserOf(Lanes a, Lanes b) { return a < b ? a : b; }
 inline Lanes GreaterOf(Lanes a, Lanes b) { return a > b ? a : b; }
+inline Lanes SquareRoot(Lanes a) {
+  return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+}
+#endif
 inline Lanes Magnitude(Lanes a) { return GreaterOf(a, -a); }
 inline float SumOf(Lanes a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+inline Lanes LoadLanes(const float* values) {
+  Lanes result;
+  std::memcpy(&result, values, sizeof result);
+  return result;
+}
+inline void StoreLanes(Lanes lanes, float* values) { std::memcpy(values, &lanes, sizeof lanes); }
 /// Towards zero.
 inline LaneIntegers WholeOf(Lanes a) { return __builtin_convertvector(a, LaneIntegers); }
 inline Lanes FloatsOf(LaneIntegers a) { return __builtin_convertvector(a, Lanes); }

@@ -44,9 +44,9 @@ GridHint GridPattern::Expect(const Complex& complex, const std::vector<Int3>& po
   std::array<Candidate, kMostCandidates> candidates;
   uint32_t found = 0;
   uint32_t& count = hint.count;
-  for (uint32_t h = complex.FirstHalfEdge(vertex); h != kNone; h = complex.half_edge(h).next) {
+  for (const auto& spoke : complex.Spokes(vertex)) {
     if (count == kMostNeighbours) return hint;
-    ids[count] = complex.half_edge(h).target;
+    ids[count] = spoke.target;
     ring[count] = Difference(positions[ids[count]], positions[vertex]);
     ++count;
   }
@@ -133,9 +133,8 @@ GridHint GridPattern::Expect(const Complex& complex, const std::vector<Int3>& po
   hint.far = ring[far];
   hint.far_vertex = ids[far];
   uint32_t sides = 0;
-  for (uint32_t c = complex.FirstCorner(vertex); c != kNone; c = complex.corner(c).next) {
-    const uint32_t a = complex.corner(NextCorner(c)).vertex;
-    const uint32_t b = complex.corner(PreviousCorner(c)).vertex;
+  for (const uint32_t corner : complex.Corners(vertex)) {
+    const auto [a, b] = complex.Opposite(corner);
     if ((a == ids[far]) == (b == ids[far])) continue;
     const Vector3 d = Difference(positions[a == ids[far] ? b : a], positions[vertex]);
     for (size_t i = 0; i < 3; ++i) hint.across[i] = hint.across[i] + d[i];

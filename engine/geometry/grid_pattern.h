@@ -81,8 +81,7 @@ GridPeers GridPattern::PeersOf(const Complex& complex, const std::vector<Int3>& 
   const auto same = [&](uint32_t split) {
     return split != kNone && IsNear(StepOf(positions, split), step, near);
   };
-  for (uint32_t h = complex.FirstHalfEdge(vertex); h != kNone; h = complex.half_edge(h).next) {
-    const uint32_t other = complex.half_edge(h).target;
+  for (const auto& [other, half_edge] : complex.Spokes(vertex)) {
     if (is_leaf(other)) {
       peers.leaves += same(past_[other].last) ? 1 : 0;
     } else {

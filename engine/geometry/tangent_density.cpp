@@ -101,19 +101,14 @@ void TangentDensity::Weigh(const std::array<std::array<float, 2>, kMostNeighbour
   for (uint32_t g = 0; g < groups_; ++g) {
     const Lanes u = eccentricity_ + along_[g], v = aside_[g];
     const uint32_t k = g * kLanes;
-    const LaneIntegers from_old = DistanceBuckets(u * u + v * v, kFarBuckets - 1);
-    for (uint32_t lane = 0; lane < kLanes; ++lane) {
-      far_bucket_[k + lane] = static_cast<uint8_t>(from_old[lane]);
-    }
-    Lanes score = LookUp(far.data(), from_old) +
+    far_bucket_[g] = DistanceBuckets(u * u + v * v, kFarBuckets - 1);
+    Lanes score = LookUp(far.data(), far_bucket_[g]) +
                   Lanes{table[place_of_[k]], table[place_of_[k + 1]], table[place_of_[k + 2]],
                         table[place_of_[k + 3]]};
     for (uint32_t n = 0; n < neighbours_; ++n) {
       const Lanes du = u - neighbours[n][0], dv = v - neighbours[n][1];
       const LaneIntegers bucket = DistanceBuckets(du * du + dv * dv, kNearBuckets - 1);
-      for (uint32_t lane = 0; lane < kLanes; ++lane) {
-        near_bucket_[n][k + lane] = static_cast<uint8_t>(bucket[lane]);
-      }
+      near_bucket_[g][n] = bucket;
       score = score + LookUp(pair[ring_bucket_[n]].data(), bucket);
     }
     weight_[g] = FastExp2(LesserOf(GreaterOf(score, AllLanes(-30)), AllLanes(30)));
@@ -202,12 +197,13 @@ void TangentDensity::Learn(double second_offset) {
   auto& far = far_[count_context_];
   PairTable& pair = pair_[count_context_];
   for (uint32_t k = 0; k < cells_; ++k) {
-    const float surprise = weight_[k / kLanes][k % kLanes];
+    const uint32_t group = k / kLanes, lane = k % kLanes;
+    const float surprise = weight_[group][lane];
     if (std::fabs(surprise) < kLeastLearned) continue;
     table[place_of_[k]] += 2 * surprise;
-    far[far_bucket_[k]] += surprise;
+    far[static_cast<size_t>(far_bucket_[group][lane])] += surprise;
     for (uint32_t n = 0; n < neighbours_; ++n) {
-      pair[ring_bucket_[n]][near_bucket_[n][k]] += surprise;
+      pair[ring_bucket_[n]][static_cast<size_t>(near_bucket_[group][n][lane])] += surprise;
     }
   }
 }

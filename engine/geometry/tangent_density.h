@@ -71,8 +71,7 @@ class TangentDensity {
   float eccentricity_ = 0;
   Lanes weight_[kMostGroups];
   float total_ = 1;
-  std::array<uint8_t, kMostCells> far_bucket_;
-  std::array<std::array<uint8_t, kMostCells>, kMostNeighbours> near_bucket_;
+  LaneIntegers far_bucket_[kMostGroups], near_bucket_[kMostGroups][kMostNeighbours];
   std::array<uint8_t, kMostNeighbours> ring_bucket_;
   uint32_t neighbours_ = 0, context_ = 0, count_context_ = 0;
   double second_width_ = 1;

@@ -238,7 +238,8 @@ class Contractor {
     ++stamp_;
     size_t kept = 0;
     for (uint32_t f : star) {
-      uint32_t a = Find(faces_[f][0]), b = Find(faces_[f][1]), c = Find(faces_[f][2]);
+      for (uint32_t& corner : faces_[f]) corner = Find(corner);
+      const auto [a, b, c] = faces_[f];
       if (a == b || b == c || a == c) {
         if (a != b || b != c) collapsed_.push_back(f);
         continue;
@@ -398,9 +399,11 @@ class Contractor {
     if (grown.size() < star.size()) grown.swap(star);
     grown.insert(grown.end(), star.begin(), star.end());
     star = {};
+    const bool was_forced = forced_[target] != 0;
     forced_[target] = 0;
     tree_.Join(target, v, std::sqrt(squared), own.weight);
-    if (building_ && grown.size() <= 4 * kMostCandidates) Enqueue(target);
+    // Costs only grow, so the target's old key still says when to look at it again.
+    if (building_ && was_forced && grown.size() <= 4 * kMostCandidates) Enqueue(target);
   }
 
   /// Vertices that no edge joins any more: neighbours on the Morton curve, pair by pair.

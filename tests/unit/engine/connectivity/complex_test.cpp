@@ -18,24 +18,24 @@ class NaiveComplex {
   void AddEdge(uint32_t a, uint32_t b) {
     const uint32_t edge = static_cast<uint32_t>(start_.size() / 2);
     start_.insert(start_.end(), {a, b});
-    AddFront(half_edges_[a], 2 * edge);
-    AddFront(half_edges_[b], 2 * edge + 1);
+    AddLast(half_edges_[a], 2 * edge);
+    AddLast(half_edges_[b], 2 * edge + 1);
   }
   void AddFace(uint32_t a, uint32_t b, uint32_t c) {
     for (uint32_t vertex : {a, b, c}) {
-      AddFront(corners_[vertex], static_cast<uint32_t>(corner_vertex_.size()));
+      AddLast(corners_[vertex], static_cast<uint32_t>(corner_vertex_.size()));
       corner_vertex_.push_back(vertex);
     }
   }
   void MoveHalfEdge(uint32_t half_edge, uint32_t to) {
-    std::erase(half_edges_[start_[half_edge]], half_edge);
+    Remove(half_edges_[start_[half_edge]], half_edge);
     start_[half_edge] = to;
-    AddFront(half_edges_[to], half_edge);
+    AddLast(half_edges_[to], half_edge);
   }
   void MoveCorner(uint32_t corner, uint32_t to) {
-    std::erase(corners_[corner_vertex_[corner]], corner);
+    Remove(corners_[corner_vertex_[corner]], corner);
     corner_vertex_[corner] = to;
-    AddFront(corners_[to], corner);
+    AddLast(corners_[to], corner);
   }
 
   void ExpectSame(const Complex& complex) const {
@@ -44,17 +44,15 @@ class NaiveComplex {
     ASSERT_EQ(complex.face_count() * 3, corner_vertex_.size());
     for (uint32_t v = 0; v < half_edges_.size(); ++v) {
       std::vector<uint32_t> found;
-      for (uint32_t h = complex.FirstHalfEdge(v); h != kNone; h = complex.half_edge(h).next) {
-        found.push_back(h);
-        ASSERT_EQ(complex.half_edge(h).target, start_[h ^ 1]);
-        ASSERT_LE(found.size(), half_edges_[v].size());
+      for (const auto& [target, half_edge] : complex.Spokes(v)) {
+        found.push_back(half_edge);
+        ASSERT_EQ(target, start_[half_edge ^ 1]);
       }
       ASSERT_EQ(found, half_edges_[v]);
       found.clear();
-      for (uint32_t c = complex.FirstCorner(v); c != kNone; c = complex.corner(c).next) {
-        found.push_back(c);
-        ASSERT_EQ(complex.corner(c).vertex, v);
-        ASSERT_LE(found.size(), corners_[v].size());
+      for (const uint32_t corner : complex.Corners(v)) {
+        found.push_back(corner);
+        ASSERT_EQ(complex.VertexOf(corner), v);
       }
       ASSERT_EQ(found, corners_[v]);
     }
@@ -70,8 +68,13 @@ class NaiveComplex {
   uint32_t vertex_of(uint32_t corner) const { return corner_vertex_[corner]; }
 
  private:
-  static void AddFront(std::vector<uint32_t>& list, uint32_t value) {
-    list.insert(list.begin(), value);
+  static void AddLast(std::vector<uint32_t>& list, uint32_t value) {
+    list.push_back(value);
+  }
+  /// The last takes its place.
+  static void Remove(std::vector<uint32_t>& list, uint32_t value) {
+    *std::find(list.begin(), list.end(), value) = list.back();
+    list.pop_back();
   }
   std::vector<std::vector<uint32_t>> half_edges_, corners_;
   std::vector<uint32_t> start_, corner_vertex_;
@@ -113,6 +116,33 @@ TEST(Complex, DoesWhatPlainListsDo) {
       }
     }
     ASSERT_NO_FATAL_FAILURE(naive.ExpectSame(complex)) << seed;
+  }
+}
+
+TEST(Complex, TellsTheOtherCornersInTheOrderOfTheFace) {
+  Complex complex;
+  for (int i = 0; i < 5; ++i) complex.AddVertex();
+  complex.AddFace(0, 1, 2);
+  complex.AddFace(4, 3, 1);
+  using Two = std::array<uint32_t, 2>;
+  EXPECT_EQ(complex.Opposite(3), (Two{3, 1}));
+  EXPECT_EQ(complex.Opposite(4), (Two{1, 4}));
+  EXPECT_EQ(complex.Opposite(5), (Two{4, 3}));
+}
+
+TEST(Complex, AHubKeepsItsSpokes) {
+  Complex complex;
+  constexpr uint32_t kRim = 1000;
+  for (uint32_t i = 0; i <= kRim; ++i) complex.AddVertex();
+  for (uint32_t i = 1; i <= kRim; ++i) complex.AddEdge(0, i);
+  EXPECT_EQ(complex.Degree(0), kRim);
+  const uint32_t other = complex.AddVertex();
+  for (uint32_t e = 0; e < kRim; e += 2) complex.MoveHalfEdge(2 * e, 0, other);
+  EXPECT_EQ(complex.Degree(0), kRim / 2);
+  EXPECT_EQ(complex.Degree(other), kRim / 2);
+  for (uint32_t i = 1; i <= kRim; ++i) {
+    ASSERT_EQ(complex.Degree(i), 1u);
+    EXPECT_EQ(complex.Spokes(i)[0].target, i % 2 == 1 ? other : 0);
   }
 }
 

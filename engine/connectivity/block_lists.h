@@ -1,0 +1,78 @@
+// Many short lists that grow and shrink, each contiguous, all in one pool.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace folprom {
+
+/// Lists named by number, of values that are small. A list takes 2^k blocks of eight values and
+/// never gives them back but to a list that grows.
+template <class T>
+class BlockLists {
+ public:
+  void AddList() { lists_.push_back({}); }
+  uint32_t size() const { return static_cast<uint32_t>(lists_.size()); }
+  uint32_t SizeOf(uint32_t list) const { return lists_[list].size; }
+  /// Valid until a value is appended to any list.
+  std::span<const T> Of(uint32_t list) const {
+    return {ValuesOf(lists_[list]), lists_[list].size};
+  }
+  T& At(uint32_t list, uint32_t place) { return ValuesOf(lists_[list])[place]; }
+
+  /// Returns the place of the value.
+  uint32_t Append(uint32_t list, const T& value) {
+    List& grown = lists_[list];
+    if (grown.size == kBlock * grown.blocks) Grow(&grown);
+    ValuesOf(grown)[grown.size] = value;
+    return grown.size++;
+  }
+  /// Fills the place with the last value of the list, unless it is the last.
+  void Remove(uint32_t list, uint32_t place) {
+    List& shrunk = lists_[list];
+    T* values = ValuesOf(shrunk);
+    values[place] = values[--shrunk.size];
+  }
+
+ private:
+  static constexpr uint32_t kBlock = 8;
+  struct List {
+    uint32_t begin = 0, blocks = 0;
+    uint32_t size = 0;
+  };
+  struct alignas(kBlock * sizeof(T)) Block {
+    std::array<T, kBlock> values;
+  };
+  const T* ValuesOf(const List& list) const { return pool_.data()->values.data() + Offset(list); }
+  T* ValuesOf(const List& list) { return pool_.data()->values.data() + Offset(list); }
+  static size_t Offset(const List& list) { return size_t{list.begin} * kBlock; }
+
+  void Grow(List* list) {
+    const uint32_t blocks = std::max(2 * list->blocks, 1u);
+    auto& free = free_[static_cast<size_t>(std::countr_zero(blocks))];
+    uint32_t begin = static_cast<uint32_t>(pool_.size());
+    if (free.empty()) {
+      pool_.resize(pool_.size() + blocks);
+    } else {
+      begin = free.back();
+      free.pop_back();
+    }
+    std::copy_n(pool_.begin() + list->begin, list->blocks, pool_.begin() + begin);
+    if (list->blocks > 0) {
+      free_[static_cast<size_t>(std::countr_zero(list->blocks))].push_back(list->begin);
+    }
+    list->begin = begin;
+    list->blocks = blocks;
+  }
+
+  std::vector<List> lists_;
+  std::vector<Block> pool_;
+  std::array<std::vector<uint32_t>, 32> free_;  ///< runs of 2^k blocks
+};
+
+}  // namespace folprom

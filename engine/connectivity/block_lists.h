@@ -7,12 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace folprom {
 
-/// Lists named by number, of values that are small. A list takes 2^k blocks of eight values and
-/// never gives them back but to a list that grows.
+/// Lists named by number, of values that are small. A list takes 2^k blocks of eight values; blocks
+/// that it gives back go to lists that grow.
 template <class T>
 class BlockLists {
  public:
@@ -38,6 +39,15 @@ class BlockLists {
     T* values = ValuesOf(shrunk);
     values[place] = values[--shrunk.size];
   }
+  /// Keeps the first so many values.
+  void Shrink(uint32_t list, uint32_t size) { lists_[list].size = size; }
+  void Swap(uint32_t a, uint32_t b) { std::swap(lists_[a], lists_[b]); }
+  /// Appends all values of a list to another and leaves it empty and without blocks.
+  void MoveAll(uint32_t from, uint32_t to) {
+    for (uint32_t i = 0; i < lists_[from].size; ++i) Append(to, T{At(from, i)});
+    Release(lists_[from]);
+    lists_[from] = {};
+  }
 
  private:
   static constexpr uint32_t kBlock = 8;
@@ -52,6 +62,10 @@ class BlockLists {
   T* ValuesOf(const List& list) { return pool_.data()->values.data() + Offset(list); }
   static size_t Offset(const List& list) { return size_t{list.begin} * kBlock; }
 
+  void Release(const List& list) {
+    if (list.blocks == 0) return;
+    free_[static_cast<size_t>(std::countr_zero(list.blocks))].push_back(list.begin);
+  }
   void Grow(List* list) {
     const uint32_t blocks = std::max(2 * list->blocks, 1u);
     auto& free = free_[static_cast<size_t>(std::countr_zero(blocks))];
@@ -63,9 +77,7 @@ class BlockLists {
       free.pop_back();
     }
     std::copy_n(pool_.begin() + list->begin, list->blocks, pool_.begin() + begin);
-    if (list->blocks > 0) {
-      free_[static_cast<size_t>(std::countr_zero(list->blocks))].push_back(list->begin);
-    }
+    Release(*list);
     list->begin = begin;
     list->blocks = blocks;
   }

@@ -1,4 +1,4 @@
-// Contexts of the lattice's models: axes of a position, and numbers in steps.
+// Contexts of the lattice's models: numbers in steps.
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,8 @@
 #include <cstdint>
 
 #include "engine/entropy/cell_model.h"
-#include "engine/mesh/types.h"
 
 namespace folprom {
-
-inline int32_t& At(Int3& p, uint32_t axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
-inline int32_t At(const Int3& p, uint32_t axis) {
-  return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
-}
 
 /// Number of bounds, ascending, that the value reaches.
 template <size_t K>

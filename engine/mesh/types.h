@@ -15,6 +15,12 @@ struct Int3 {
   auto operator<=>(const Int3&) const = default;
 };
 
+/// The coordinate along an axis: 0 x, 1 y, 2 z.
+inline int32_t& At(Int3& p, uint32_t axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+inline int32_t At(const Int3& p, uint32_t axis) {
+  return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
+}
+
 /// A triangle as three vertex indices inside one subtree, in the order of its orientation.
 using Face = std::array<uint32_t, 3>;
 

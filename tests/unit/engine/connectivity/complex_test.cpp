@@ -155,5 +155,42 @@ TEST(Complex, CornersFollowEachOtherAroundTheirFace) {
   }
 }
 
+TEST(BlockLists, DoWhatPlainListsDo) {
+  std::mt19937_64 random(6);
+  BlockLists<uint32_t> lists;
+  std::vector<std::vector<uint32_t>> plain(20);
+  for (size_t i = 0; i < plain.size(); ++i) lists.AddList();
+  for (uint32_t step = 0; step < 20000; ++step) {
+    const uint32_t list = static_cast<uint32_t>(random() % plain.size());
+    const uint32_t other = (list + 1) % static_cast<uint32_t>(plain.size());
+    std::vector<uint32_t>&one = plain[list], &two = plain[other];
+    const uint64_t kind = random() % 100;
+    if (kind < 70) {
+      EXPECT_EQ(lists.Append(list, step), one.size());
+      one.push_back(step);
+    } else if (kind < 90 && !one.empty()) {
+      const size_t place = random() % one.size();
+      lists.Remove(list, static_cast<uint32_t>(place));
+      one[place] = one.back();
+      one.pop_back();
+    } else if (kind < 95) {
+      lists.Swap(list, other);
+      one.swap(two);
+    } else if (kind < 97) {
+      lists.MoveAll(list, other);
+      two.insert(two.end(), one.begin(), one.end());
+      one.clear();
+    } else {
+      lists.Shrink(list, static_cast<uint32_t>(one.size() / 2));
+      one.resize(one.size() / 2);
+    }
+  }
+  for (uint32_t list = 0; list < plain.size(); ++list) {
+    const auto values = lists.Of(list);
+    EXPECT_EQ(std::vector<uint32_t>(values.begin(), values.end()), plain[list]);
+    EXPECT_EQ(lists.SizeOf(list), plain[list].size());
+  }
+}
+
 }  // namespace
 }  // namespace folprom

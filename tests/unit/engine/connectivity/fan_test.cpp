@@ -102,7 +102,7 @@ TEST(Fan, PartsEveryPlaceToOneSideOfTheCut) {
 
 struct Sample {
   Fan fan;
-  std::vector<FanModel::Spoke> spokes;
+  std::vector<FanSpoke> spokes;
   Vector3 second;
   FanCut cut;
 };

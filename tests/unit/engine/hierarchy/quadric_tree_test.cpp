@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "engine/hierarchy/cost_queue.h"
 #include "engine/hierarchy/quadric.h"
 
 namespace folprom {
@@ -92,15 +94,53 @@ void ExpectEqualTrees(const SetTree& a, const SetTree& b) {
 
 TEST(Quadric, IsTheWeightedSquaredDistanceFromItsPlanes) {
   Quadric a, b;
-  a.AddPlane({0, 0, 1}, -5, 2);
-  b.AddPlane({0.6, 0.8, 0}, 1, 3);
-  EXPECT_EQ(a.At({100, -7, 5}), 0);
-  EXPECT_DOUBLE_EQ(a.At({1, 2, 9}), 2 * 16);
-  EXPECT_NEAR(b.At({5, 10, 3}), 3 * 144, 1e-9);
-  a.Add(b);
+  a.AddPlane({0, 0, 1}, 2);
+  b.AddPlane({0.6, 0.8, 0}, 3);
+  EXPECT_EQ(a.At({100, -7, 0}), 0);
+  EXPECT_FLOAT_EQ(a.At({1, 2, 4}), 2 * 16);
+  EXPECT_FLOAT_EQ(b.At({5, 10, 3}), 3 * 121);
+  // The other lies at (10, 20, 30), and its plane goes through there.
+  a.Add(b, {10, 20, 30});
   EXPECT_EQ(a.weight, 5);
-  EXPECT_NEAR(a.At({5, 10, 9}), 2 * 16 + 3 * 144, 1e-9);
-  EXPECT_EQ(Quadric().At({1e9, 1e9, 1e9}), 0);
+  EXPECT_FLOAT_EQ(a.At({0, 0, 0}), 3 * 22 * 22);
+  EXPECT_FLOAT_EQ(a.At({5, 10, 9}), 2 * 81 + 3 * 11 * 11);
+  EXPECT_NEAR(a.At({10, 20, 30}), 2 * 900, 1e-2);
+  EXPECT_EQ(Quadric().At({1e9F, 1e9F, 1e9F}), 0);
+}
+
+TEST(CostQueue, TakesTheCheapestButForAHundredthOfAnOctave) {
+  std::mt19937_64 random(4);
+  std::vector<float> cost(1000);
+  for (float& value : cost) {
+    value = std::ldexp(static_cast<float>(random() % 1000), static_cast<int>(random() % 200) - 100);
+  }
+  CostQueue queue(1000);
+  for (uint32_t v = 0; v < 1000; ++v) queue.Push(v, 1);
+  for (uint32_t v = 0; v < 1000; ++v) queue.Push(v, cost[v]);
+  for (uint32_t v = 0; v < 1000; v += 10) queue.Remove(v);
+  float before = 0;
+  uint32_t taken = 0;
+  for (uint32_t v = queue.Take(); v != CostQueue::kNobody; v = queue.Take()) {
+    ASSERT_NE(v % 10, 0u);
+    ASSERT_GE(cost[v] * 1.01F, before);
+    ASSERT_LT(cost[v], queue.Limit());
+    before = std::max(before, cost[v]);
+    ++taken;
+  }
+  EXPECT_EQ(taken, 900u);
+}
+
+TEST(CostQueue, ACostBelowTheLastComesAtOnce) {
+  CostQueue queue(3);
+  queue.Push(0, 5);
+  queue.Push(1, 100);
+  EXPECT_EQ(queue.Take(), 0u);
+  queue.Push(2, 1);
+  queue.Push(0, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(queue.Take(), 2u);
+  EXPECT_EQ(queue.Take(), 1u);
+  EXPECT_EQ(queue.Take(), 0u);
+  EXPECT_EQ(queue.Take(), CostQueue::kNobody);
 }
 
 TEST(QuadricTree, IsSoundOnSheets) {

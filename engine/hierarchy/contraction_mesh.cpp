@@ -1,0 +1,301 @@
+#include "engine/hierarchy/contraction_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace folprom {
+namespace {
+
+/// Planes through open edges, perpendicular to the face, weigh this much more than the face.
+constexpr double kBoundaryWeight = 4;
+/// Where so many of the vertices lie flat and so many on edges, there are faces and edges.
+constexpr double kFlatShare = 0.3, kSharpShare = 0.02;
+/// How far from a plane its points come to lie on the lattice, and twice the mean area of faces
+/// whose angles that leaves alone.
+constexpr double kRounding = 1, kLeastMeasured = 400;
+/// Length of the sum of a vertex's face normals over their areas below which an edge goes through.
+constexpr double kSharpNormals = 0.97;
+/// Of a subtree from its first vertex in scaled units: so floats hold areas times squared lengths.
+constexpr float kMostReach = 8192;
+/// Square of the cosine by which a face may turn.
+constexpr float kMostTurn = 0.04F;
+
+using Offset = Quadric::Offset;
+
+float Dot(const Offset& a, const Offset& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Offset Cross(const Offset& a, const Offset& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double Length(const Vector3& a) { return std::sqrt(folprom::Dot(a, a)); }
+
+}  // namespace
+
+ContractionMesh::ContractionMesh(std::span<const Int3> positions, std::span<const Face> faces,
+                                 std::span<const CrossFace> cross_faces, uint32_t subtree)
+    : own_(static_cast<uint32_t>(positions.size())) {
+  vertices_.reserve(positions.size() + 2 * cross_faces.size());
+  faces_.reserve(faces.size() + cross_faces.size());
+  for (const Int3& p : positions) AddPoint(p);
+  faces_.assign(faces.begin(), faces.end());
+  for (const CrossFace& cross : cross_faces) {
+    Face face;
+    for (size_t i = 0; i < 3; ++i) {
+      face[i] = cross.vertex[i].local;
+      if (cross.vertex[i].subtree != subtree) face[i] = AddPoint(cross.position[i]);
+    }
+    faces_.push_back(face);
+  }
+  ChooseScale(positions);
+  LinkStars();
+  AddFacePlanes();
+  AddBoundaryPlanes();
+}
+
+uint32_t ContractionMesh::AddPoint(const Int3& p) {
+  const uint32_t index = static_cast<uint32_t>(vertices_.size());
+  vertices_.push_back({p, index, 0, {}});
+  return index;
+}
+
+void ContractionMesh::ChooseScale(std::span<const Int3> positions) {
+  int32_t reach = 0;
+  for (const Int3& p : positions) {
+    for (uint32_t i = 0; i < 3; ++i) {
+      reach = std::max(reach, std::abs(At(p, i) - At(positions[0], i)));
+    }
+  }
+  while (static_cast<float>(reach) * scale_ > kMostReach) scale_ = scale_ / 2;
+}
+
+uint32_t ContractionMesh::Find(uint32_t v) {
+  while (vertices_[v].merged_into != v) {
+    const uint32_t next = vertices_[v].merged_into;
+    vertices_[v].merged_into = vertices_[next].merged_into;
+    v = vertices_[v].merged_into;
+  }
+  return v;
+}
+
+ContractionMesh::Offset ContractionMesh::From(uint32_t a, uint32_t b) const {
+  const Int3 &p = vertices_[a].position, &q = vertices_[b].position;
+  return {static_cast<float>(q.x - p.x) * scale_, static_cast<float>(q.y - p.y) * scale_,
+          static_cast<float>(q.z - p.z) * scale_};
+}
+
+double ContractionMesh::Distance(uint32_t a, uint32_t b) const {
+  return Length(Difference(vertices_[a].position, vertices_[b].position));
+}
+
+Vector3 ContractionMesh::AreaNormal(uint32_t a, uint32_t b, uint32_t c) const {
+  const Int3& origin = vertices_[a].position;
+  return folprom::Cross(Difference(vertices_[b].position, origin),
+                        Difference(vertices_[c].position, origin));
+}
+
+void ContractionMesh::LinkStars() {
+  for (uint32_t v = 0; v < own_; ++v) stars_.AddList();
+  for (uint32_t f = 0; f < faces_.size(); ++f) {
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t v = faces_[f][i];
+      // A corner may be in a face twice.
+      if (v < own_ && v != faces_[f][(i + 1) % 3]) stars_.Append(v, f);
+    }
+  }
+}
+
+void ContractionMesh::AddFacePlanes() {
+  const double unit = static_cast<double>(scale_) * static_cast<double>(scale_);
+  for (const Face& face : faces_) {
+    Vector3 normal = AreaNormal(face[0], face[1], face[2]);
+    const double length = Length(normal);
+    if (!(length > 0)) continue;
+    for (double& value : normal) value = value / length;
+    for (uint32_t v : face) {
+      if (v < own_) vertices_[v].quadric.AddPlane(normal, length / 6 * unit);
+    }
+  }
+}
+
+void ContractionMesh::AddBoundaryPlane(uint32_t a, uint32_t b, const Face& face) {
+  const Vector3 along = Difference(vertices_[b].position, vertices_[a].position);
+  Vector3 normal = folprom::Cross(AreaNormal(face[0], face[1], face[2]), along);
+  const double length = Length(normal);
+  if (!(length > 0)) return;
+  for (double& value : normal) value = value / length;
+  const double unit = static_cast<double>(scale_) * static_cast<double>(scale_);
+  const double weight = kBoundaryWeight * folprom::Dot(along, along) / 6 * unit;
+  vertices_[a].quadric.AddPlane(normal, weight);
+  vertices_[b].quadric.AddPlane(normal, weight);
+}
+
+void ContractionMesh::AddBoundaryPlanes() {
+  struct Edge {
+    uint32_t to, face, count;
+  };
+  std::vector<Edge> edges;
+  for (uint32_t v = 0; v < own_; ++v) {
+    // Foreign ends have a number per face, so their edges would all seem open.
+    edges.clear();
+    const uint32_t first_stamp = stamp_ + 1;
+    for (uint32_t f : stars_.Of(v)) {
+      for (size_t i = 0; i < 3; ++i) {
+        const uint32_t a = faces_[f][i], b = faces_[f][(i + 1) % 3];
+        if ((a != v) == (b != v)) continue;
+        const uint32_t w = a == v ? b : a;
+        if (w < v || w >= own_) continue;
+        uint32_t& stamp = vertices_[w].stamp;
+        if (stamp < first_stamp) {
+          stamp = ++stamp_;
+          edges.push_back({w, f, 0});
+        }
+        ++edges[stamp - first_stamp].count;
+      }
+    }
+    for (const Edge& edge : edges) {
+      if (edge.count == 1) AddBoundaryPlane(v, edge.to, faces_[edge.face]);
+    }
+  }
+}
+
+bool ContractionMesh::HasFacesAndEdges() const {
+  uint32_t flat = 0, sharp = 0;
+  for (uint32_t v = 0; v < own_; ++v) {
+    const Bend bend = BendAt(v);
+    flat += bend == Bend::kFlat ? 1 : 0;
+    sharp += bend == Bend::kSharp ? 1 : 0;
+  }
+  return flat > kFlatShare * own_ && sharp > kSharpShare * own_;
+}
+
+/// Flat: all of the vertex's faces lie in one plane but for the rounding to the lattice.
+ContractionMesh::Bend ContractionMesh::BendAt(uint32_t v) const {
+  const auto star = stars_.Of(v);
+  Vector3 normal{0, 0, 0};
+  double area = 0;
+  for (uint32_t f : star) {
+    const Vector3 face_normal = AreaNormal(faces_[f][0], faces_[f][1], faces_[f][2]);
+    for (size_t i = 0; i < 3; ++i) normal[i] = normal[i] + face_normal[i];
+    area = area + Length(face_normal);
+  }
+  const double length = Length(normal);
+  if (star.empty() || area < kLeastMeasured * static_cast<double>(star.size())) {
+    return Bend::kSmooth;
+  }
+  if (length < kSharpNormals * area) return Bend::kSharp;
+  for (uint32_t f : star) {
+    for (uint32_t corner : faces_[f]) {
+      const Vector3 d = Difference(vertices_[corner].position, vertices_[v].position);
+      if (std::fabs(folprom::Dot(d, normal)) > kRounding * length) return Bend::kSmooth;
+    }
+  }
+  return Bend::kFlat;
+}
+
+/// Faces that have collapsed to an edge stay in the star only while no other face of it joins v to
+/// the same neighbour.
+std::span<const uint32_t> ContractionMesh::CollectRing(uint32_t v) {
+  ring_.clear();
+  collapsed_.clear();
+  ++stamp_;
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < stars_.SizeOf(v); ++i) {
+    const uint32_t f = stars_.At(v, i);
+    for (uint32_t& corner : faces_[f]) corner = Find(corner);
+    const auto [a, b, c] = faces_[f];
+    if (a == b || b == c || a == c) {
+      if (a != b || b != c) collapsed_.push_back(f);
+      continue;
+    }
+    stars_.At(v, kept++) = f;
+    for (uint32_t w : {a, b, c}) AddToRing(v, w);
+  }
+  for (uint32_t f : collapsed_) {
+    bool needed = false;
+    for (uint32_t corner : faces_[f]) needed = AddToRing(v, corner) || needed;
+    if (needed) stars_.At(v, kept++) = f;
+  }
+  stars_.Shrink(v, kept);
+  return ring_;
+}
+
+bool ContractionMesh::AddToRing(uint32_t v, uint32_t w) {
+  if (w == v || w >= own_ || vertices_[w].stamp == stamp_) return false;
+  vertices_[w].stamp = stamp_;
+  ring_.push_back(w);
+  return true;
+}
+
+float ContractionMesh::CostOf(uint32_t v, uint32_t target, float length_weight) const {
+  const Offset offset = From(v, target);
+  const Quadric& own = vertices_[v].quadric;
+  const float error = own.At(offset) + vertices_[target].quadric.constant;
+  return error + length_weight * own.weight * Dot(offset, offset);
+}
+
+bool ContractionMesh::IsAllowed(uint32_t v, uint32_t target) {
+  uint32_t shared = 0;
+  for (uint32_t f : stars_.Of(v)) {
+    const Face& face = faces_[f];
+    if (face[0] == face[1] || face[1] == face[2] || face[0] == face[2]) continue;
+    if (face[0] == target || face[1] == target || face[2] == target) {
+      ++shared;
+      continue;
+    }
+    const size_t place = face[0] == v ? 0 : (face[1] == v ? 1 : 2);
+    const uint32_t next = face[(place + 1) % 3], previous = face[(place + 2) % 3];
+    const Offset side = From(next, previous);
+    const Offset before = Cross(side, From(next, v)), after = Cross(side, From(next, target));
+    const float agreement = Dot(before, after);
+    const float limit = kMostTurn * Dot(before, before) * Dot(after, after);
+    if (agreement < 0 || agreement * agreement < limit) return false;
+  }
+  // The link condition: common neighbours lie on faces of the edge.
+  return CommonNeighbours(target) <= shared;
+}
+
+/// How many vertices of ring_ are neighbours of target; looks through whichever stars are smaller,
+/// since a hub's is looked at once for each of its spokes.
+uint32_t ContractionMesh::CommonNeighbours(uint32_t target) {
+  uint32_t common = 0;
+  size_t around = 0;
+  for (uint32_t w : ring_) around += w != target ? stars_.SizeOf(w) : 0;
+  if (around < stars_.SizeOf(target)) {
+    for (uint32_t w : ring_) common += w != target && AreNeighbours(w, target) ? 1 : 0;
+    return common;
+  }
+  const uint32_t first = ++stamp_, second = ++stamp_;
+  for (uint32_t w : ring_) vertices_[w].stamp = first;
+  for (uint32_t f : stars_.Of(target)) {
+    for (uint32_t& corner : faces_[f]) {
+      corner = Find(corner);
+      if (corner >= own_ || vertices_[corner].stamp != first) continue;
+      vertices_[corner].stamp = second;
+      if (corner != target) ++common;
+    }
+  }
+  return common;
+}
+
+bool ContractionMesh::AreNeighbours(uint32_t v, uint32_t other) {
+  for (uint32_t f : stars_.Of(v)) {
+    for (uint32_t corner : faces_[f]) {
+      if (Find(corner) == other) return true;
+    }
+  }
+  return false;
+}
+
+double ContractionMesh::Contract(uint32_t v, uint32_t target) {
+  Vertex &gone = vertices_[v], &kept = vertices_[target];
+  const Quadric& own = gone.quadric;
+  const double error =
+      own.weight > 0 ? std::sqrt(static_cast<double>(own.At(From(v, target)) / own.weight)) : 0;
+  gone.merged_into = target;
+  kept.quadric.Add(own, From(target, v));
+  if (stars_.SizeOf(target) < stars_.SizeOf(v)) stars_.Swap(target, v);
+  stars_.MoveAll(v, target);
+  return error / static_cast<double>(scale_);
+}
+
+}  // namespace folprom

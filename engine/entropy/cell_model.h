@@ -35,12 +35,6 @@ inline double FastLog(double x) {
   return exponent * 0.69314718 + 2 * y * (1 + s * (0.33333333 + s * (0.2 + s * 0.14285714)));
 }
 
-/// Logistic distribution function.
-inline double Logistic(double t) {
-  double clamped = t < -40 ? -40 : (t > 40 ? 40 : t);
-  return 1 / (1 + FastExp2(-1.44269504 * clamped));
-}
-
 }  // namespace detail
 
 /// A prediction in units of cells: cell k covers [k, k + 1).
@@ -94,10 +88,8 @@ class CellModel {
     double middle =
         std::clamp(predictions[0].mean, static_cast<double>(lo), static_cast<double>(hi));
     int64_t base = static_cast<int64_t>(middle);
-    Interval interval{a, c, {}, {}, nullptr};
-    interval.density = &density;
-    interval.below = Tails(predictions, density, a);
-    interval.above = Tails(predictions, density, c);
+    Interval interval{a, c, EndAt(predictions, density, a), EndAt(predictions, density, c),
+                      &density};
     bool upper = Decide(coder, contexts, predictions, 0, base + 1, value, &interval);
     uint32_t octave = 0;
     int64_t step = 1;
@@ -123,14 +115,16 @@ class CellModel {
   void Visit(LearnedStateVisitor& visitor) { decisions_.Visit(visitor); }
 
  private:
-  /// What is left: cells [a, c), and the distribution functions there, from the left and from the
-  /// right, since differences far out need the smaller of the two.
-  struct Ends {
-    double left, right;
+  /// Where decisions part cells: of each logistic density e^((at - mean) / scale), and what of the
+  /// measured one lies below.
+  struct End {
+    std::array<double, P> power;
+    double below;
   };
+  /// What is left: cells [a, c).
   struct Interval {
     int64_t a, c;
-    std::array<Ends, P + M> below, above;
+    End first, last;
     const CellDensity* density;
   };
 
@@ -138,24 +132,28 @@ class CellModel {
     for (uint32_t& size : sizes) size *= kSlots;
     return sizes;
   }
-  static Ends Tail(const CellPrediction& prediction, int64_t at) {
-    double t = (static_cast<double>(at) - prediction.mean) / prediction.scale;
-    return {detail::Logistic(t), detail::Logistic(-t)};
+  static End EndAt(const std::array<CellPrediction, P>& predictions, const CellDensity& density,
+                   int64_t at) {
+    End end{{}, 0};
+    for (size_t p = 0; p < P; ++p) {
+      const double t = (static_cast<double>(at) - predictions[p].mean) / predictions[p].scale;
+      end.power[p] = detail::FastExp2(1.44269504 * std::clamp(t, -40.0, 40.0));
+    }
+    if (M > 0 && density.axis != nullptr) {
+      end.below = density.axis->Below(density.cell * static_cast<double>(at) - density.origin);
+    }
+    return end;
   }
 
-  static std::array<Ends, P + M> Tails(const std::array<CellPrediction, P>& predictions,
-                                       const CellDensity& density, int64_t at) {
-    std::array<Ends, P + M> ends;
-    for (size_t p = 0; p < P; ++p) ends[p] = Tail(predictions[p], at);
-    if constexpr (M > 0) {
-      if (density.axis == nullptr) {
-        ends[P] = {0.5, 0.5};
-        return ends;
-      }
-      double left = density.axis->Below(density.cell * static_cast<double>(at) - density.origin);
-      ends[P] = {left, 1 - left};
-    }
-    return ends;
+  static int32_t LogOdds(double high, double low) {
+    return static_cast<int32_t>(std::clamp(256 * detail::FastLog(high / low), -2047.0, 2047.0));
+  }
+  /// ln of the odds of [at, c) against [a, at), in 1/256. Between ends with powers f and g lies
+  /// (g - f) / ((1 + f) (1 + g)) of a logistic density.
+  static int32_t LogisticOdds(double first, double here, double last) {
+    const double from = 1 + first, to = 1 + last;
+    const double least = kLeast * from * (1 + here) * to;
+    return LogOdds(std::max((last - here) * from, least), std::max((here - first) * to, least));
   }
 
   /// Is value >= at; narrows the interval.
@@ -165,35 +163,31 @@ class CellModel {
               int32_t value, Interval* interval) {
     if (at <= interval->a) return true;
     if (at >= interval->c) return false;
-    std::array<Ends, P + M> here = Tails(predictions, *interval->density, at);
-    std::array<int32_t, P + M> inputs;
-    for (size_t p = 0; p < P + M; ++p) {
-      if (p == P && interval->density->axis == nullptr) {
-        inputs[p] = 0;
-        continue;
-      }
-      bool leftward = here[p].left < here[p].right;
-      double low = leftward ? here[p].left - interval->below[p].left
-                            : interval->below[p].right - here[p].right;
-      double high = leftward ? interval->above[p].left - here[p].left
-                             : here[p].right - interval->above[p].right;
-      constexpr double kLeast = 1e-17;
-      double odds = (high > kLeast ? high : kLeast) / (low > kLeast ? low : kLeast);
-      inputs[p] = static_cast<int32_t>(std::clamp(256 * detail::FastLog(odds), -2047.0, 2047.0));
+    const End here = EndAt(predictions, *interval->density, at);
+    const End &first = interval->first, &last = interval->last;
+    std::array<int32_t, P + M> inputs{};
+    for (size_t p = 0; p < P; ++p) {
+      inputs[p] = LogisticOdds(first.power[p], here.power[p], last.power[p]);
+    }
+    if (M > 0 && interval->density->axis != nullptr) {
+      inputs[P + M - 1] = LogOdds(std::max(last.below - here.below, kLeast),
+                                  std::max(here.below - first.below, kLeast));
     }
     std::array<uint32_t, N> scaled;
     for (size_t i = 0; i < N; ++i) scaled[i] = contexts[i] * kSlots + slot;
     bool upper = decisions_.Code(coder, scaled, slot, value >= at, inputs);
     if (upper) {
       interval->a = at;
-      interval->below = here;
+      interval->first = here;
     } else {
       interval->c = at;
-      interval->above = here;
+      interval->last = here;
     }
     return upper;
   }
 
+  /// Part of a density that is never impossible.
+  static constexpr double kLeast = 1e-17;
   MixedModel<N, P + M> decisions_;
 };
 

@@ -17,6 +17,12 @@ double SubtreeLod::Spacing(uint32_t set) const {
   return sum / static_cast<double>(spokes.size());
 }
 
+void SubtreeLod::Prefetch(uint32_t next, uint32_t later) const {
+  complex.PrefetchStar(later);
+  complex.PrefetchFaces(next);
+  for (const auto& spoke : complex.Spokes(next)) __builtin_prefetch(&positions[spoke.target]);
+}
+
 const std::vector<Int3>& SubtreeLod::Ring(uint32_t set) {
   ring_.clear();
   for (const auto& spoke : complex.Spokes(set)) ring_.push_back(positions[spoke.target]);

@@ -29,6 +29,8 @@ class SubtreeLod {
   std::vector<SetRecord> sets;
 
   size_t size() const { return positions.size(); }
+  /// Asks for the memory of sets that will be looked at after the present one: `next` first.
+  void Prefetch(uint32_t next, uint32_t later) const;
   /// Mean distance to the neighbours, without any the set's scale; lattice units.
   double Spacing(uint32_t set) const;
   /// Positions of the neighbours, valid until the next call.

@@ -60,6 +60,7 @@ void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* t
   size_t kept = 0;
   for (size_t i = 0; i < open_.size(); ++i) {
     const uint32_t set = open_[i];
+    if (i + 2 < open_.size()) lod_.Prefetch(open_[i + 1], open_[i + 2]);
     SetRecord& record = lod_.sets[set];
     if (record.is_leaf) continue;
     // Spacings fall as neighbours split, so one that was too small before is not measured again.

@@ -26,6 +26,9 @@ class BlockLists {
   }
   T& At(uint32_t list, uint32_t place) { return ValuesOf(lists_[list])[place]; }
 
+  /// Asks for the memory that Of will read; says so early.
+  void Prefetch(uint32_t list) const { __builtin_prefetch(ValuesOf(lists_[list])); }
+
   /// Returns the place of the value.
   uint32_t Append(uint32_t list, const T& value) {
     List& grown = lists_[list];

@@ -71,6 +71,14 @@ class Complex {
   /// Valid until the next change.
   std::span<const Spoke> Spokes(uint32_t vertex) const { return spokes_.Of(vertex); }
   std::span<const uint32_t> Corners(uint32_t vertex) const { return corners_of_.Of(vertex); }
+  /// Asks for the memory of what surrounds a vertex, and, once that is there, of its faces.
+  void PrefetchStar(uint32_t vertex) const {
+    spokes_.Prefetch(vertex);
+    corners_of_.Prefetch(vertex);
+  }
+  void PrefetchFaces(uint32_t vertex) const {
+    for (const uint32_t corner : Corners(vertex)) __builtin_prefetch(&corners_[corner]);
+  }
   /// Number of edges.
   uint32_t Degree(uint32_t vertex) const { return spokes_.SizeOf(vertex); }
   uint32_t VertexOf(uint32_t corner) const { return corners_[corner].vertex; }

@@ -1,21 +1,69 @@
 #include "io/formats/mesh_source.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "io/files/mapped_file.h"
+#include "io/formats/mesh_format.h"
+#include "io/formats/obj_blocks.h"
+#include "io/formats/obj_source.h"
+#include "io/formats/off_source.h"
 #include "io/formats/ply_header.h"
 #include "io/formats/ply_source.h"
+#include "io/formats/stl_source.h"
+#include "io/formats/text_cursor.h"
 
 namespace folprom::io {
+namespace {
+
+/// No text of a mesh has a NUL; a binary STL has some in its normals, its corners or its header.
+bool LooksBinary(const MappedFile& file) {
+  const std::span<const uint8_t> head =
+      file.bytes().first(std::min<size_t>(file.bytes().size(), 4096));
+  return std::ranges::find(head, uint8_t{0}) != head.end();
+}
+
+bool IsSolid(std::string_view word) { return word == "solid" || word == "SOLID"; }
+
+std::unique_ptr<MeshSource> OpenStl(MappedFile file) {
+  const bool is_text = !HasBinaryStlSize(file.bytes()) && !LooksBinary(file);
+  return is_text ? OpenTextStlSource(std::move(file)) : OpenBinaryStlSource(std::move(file));
+}
+
+std::unique_ptr<MeshSource> OpenByEnding(MappedFile file) {
+  switch (FormatByEnding(file.path()).value_or(MeshFormat::kPly)) {
+    case MeshFormat::kObj:
+      return OpenObjSource(std::move(file));
+    case MeshFormat::kStl:
+      return OpenStl(std::move(file));
+    case MeshFormat::kOff:
+      return OpenOffSource(std::move(file));
+    case MeshFormat::kPly:  // which its content would have told
+      break;
+  }
+  throw Failure(ErrorKind::kInput,
+                file.path() + ": unsupported format (known formats: PLY, OBJ, STL, OFF)");
+}
+
+std::unique_ptr<MeshSource> OpenMapped(MappedFile file) {
+  if (file.bytes().empty()) throw Failure(ErrorKind::kInput, file.path() + ": the file is empty");
+  if (HasPlyMagic(file.bytes())) return OpenPlySource(std::move(file));
+  if (HasBinaryStlSize(file.bytes())) return OpenBinaryStlSource(std::move(file));
+  // The first word that is no comment; a long first line need not be looked at further.
+  TextCursor cursor(file, {0, 1});
+  const std::string_view word = cursor.NextWordLine() ? cursor.Word() : std::string_view();
+  if (IsOffKeyword(word)) return OpenOffSource(std::move(file));
+  if (IsSolid(word)) return OpenStl(std::move(file));
+  // The keywords of OBJ are words of any text: a damaged file of another format may begin so.
+  if (IsObjKeyword(word) && !FormatByEnding(file.path())) return OpenObjSource(std::move(file));
+  return OpenByEnding(std::move(file));
+}
+
+}  // namespace
 
 Result<std::unique_ptr<MeshSource>> MeshSource::Open(const std::string& path) {
   try {
-    MappedFile file = MappedFile::Open(path).value();
-    if (file.bytes().empty()) throw Failure(ErrorKind::kInput, path + ": the file is empty");
-    if (!HasPlyMagic(file.bytes())) {
-      throw Failure(ErrorKind::kInput, path + ": unsupported format (known formats: PLY)");
-    }
-    return OpenPlySource(std::move(file));
+    return OpenMapped(MappedFile::Open(path).value());
   } catch (const Failure& failure) {
     return failure.error();
   }

@@ -25,13 +25,16 @@ enum class ScalarType : uint8_t {
 /// Three vertex indices of the file, in the order of the file.
 using Triangle = std::array<uint64_t, 3>;
 
+/// Vertices and triangles of a block, at most.
+constexpr uint64_t kBlockVertices = 65536;
+constexpr uint64_t kBlockTriangles = 65536;
+
 /// Things that were read but not kept as they were; each is worth a warning.
 struct SourceNotes {
   uint64_t polygons_triangulated = 0;  ///< faces of more than three corners, split as a fan
   uint64_t polygons_dropped = 0;       ///< faces of fewer than three corners
   uint64_t strips = 0;                 ///< triangle strips unrolled
-  std::vector<std::string>
-      ignored_properties;  ///< vertex/face properties not coded, "element.name"
+  std::vector<std::string> ignored_properties;  ///< what else the file has, as its format calls it
 };
 
 /// A scan file, mapped into memory and parsed on demand. Thread-safe after Open: every Read may be
@@ -40,15 +43,16 @@ class MeshSource {
  public:
   virtual ~MeshSource() = default;
 
-  /// Opens by content ("ply" magic). Checks the header and walks the variable-length records once,
-  /// so that truncation and bad counts are found here (kInput), and indexes the blocks.
+  /// Opens a PLY, OBJ, STL or OFF file, known by its content and only then by its ending. Walks the
+  /// file once, so that truncation and bad counts are found here (kInput), and indexes the blocks.
   static Result<std::unique_ptr<MeshSource>> Open(const std::string& path);
 
   virtual const std::string& path() const = 0;
   virtual uint64_t vertex_count() const = 0;
   /// Exact number of triangles that all blocks give together.
   virtual uint64_t triangle_count() const = 0;
-  /// Type of the coordinates in the file (the widest of x, y, z).
+  /// Type of the coordinates in the file (the widest of x, y, z). Where the format has no types:
+  /// kFloat64 if any coordinate is not what float32 holds, else kFloat32 (text_number.h).
   virtual ScalarType coordinate_type() const = 0;
 
   virtual size_t vertex_block_count() const = 0;

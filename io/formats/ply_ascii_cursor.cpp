@@ -1,27 +1,12 @@
 #include "io/formats/ply_ascii_cursor.h"
 
-#include <fast_float/fast_float.h>
-
-#include <charconv>
 #include <limits>
 #include <string>
 #include <type_traits>
 
+#include "io/formats/text_number.h"
+
 namespace folprom::io {
-namespace {
-
-std::string_view WithoutPlus(std::string_view word) {
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
-  return word;
-}
-
-bool ParseInteger(std::string_view word, int64_t* value) {
-  const char* end = word.data() + word.size();
-  const auto result = std::from_chars(word.data(), end, *value);
-  return result.ec == std::errc() && result.ptr == end;
-}
-
-}  // namespace
 
 void PlyAsciiCursor::BeginRecord(uint64_t record) {
   place_.record = record;
@@ -48,26 +33,20 @@ uint64_t PlyAsciiCursor::Count(ScalarType type) {
 int64_t PlyAsciiCursor::Integer(ScalarType) {
   const std::string_view word = Word();
   int64_t value = 0;
-  if (!ParseInteger(WithoutPlus(word), &value)) FailWord(word, "not an integer");
+  if (!ParseInteger(word, &value)) FailWord(word, "not an integer");
   return value;
 }
 
 double PlyAsciiCursor::Real(ScalarType type) {
   const std::string_view word = Word();
-  const std::string_view digits = WithoutPlus(word);
   return WithScalarType(type, [&]<class T>(T) -> double {
     if constexpr (std::is_floating_point_v<T>) {
       T value = 0;
-      const char* end = digits.data() + digits.size();
-      // Too large or too small is not a fault: infinity and zero are the nearest values.
-      const auto result = fast_float::from_chars(digits.data(), end, value);
-      if (result.ec == std::errc::invalid_argument || result.ptr != end) {
-        FailWord(word, "not a number");
-      }
+      if (!ParseReal(word, &value)) FailWord(word, "not a number");
       return static_cast<double>(value);
     } else {
       int64_t value = 0;
-      if (!ParseInteger(digits, &value)) FailWord(word, "not an integer");
+      if (!ParseInteger(word, &value)) FailWord(word, "not an integer");
       if (value < std::numeric_limits<T>::min() || value > std::numeric_limits<T>::max()) {
         FailWord(word, "out of the range of its type");
       }

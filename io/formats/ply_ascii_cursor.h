@@ -15,14 +15,14 @@ class PlyAsciiCursor {
  public:
   static constexpr bool kFixedSizes = false;
 
-  PlyAsciiCursor(std::span<const uint8_t> bytes, PlyPosition position, PlyPlace place)
+  PlyAsciiCursor(std::span<const uint8_t> bytes, FilePosition position, PlyPlace place)
       : begin_(reinterpret_cast<const char*>(bytes.data())),
         at_(begin_ + position.offset),
         end_(begin_ + bytes.size()),
         line_(position.line),
         place_(place) {}
 
-  PlyPosition position() const { return {static_cast<uint64_t>(at_ - begin_), line_}; }
+  FilePosition position() const { return {static_cast<uint64_t>(at_ - begin_), line_}; }
   const PlyPlace& place() const { return place_; }
 
   /// Steps over empty lines to the first value of the record.

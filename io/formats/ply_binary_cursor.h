@@ -18,13 +18,13 @@ class PlyBinaryCursor {
   static constexpr bool kFixedSizes = true;
   static constexpr bool kIsBigEndian = kBigEndian;
 
-  PlyBinaryCursor(std::span<const uint8_t> bytes, PlyPosition position, PlyPlace place)
+  PlyBinaryCursor(std::span<const uint8_t> bytes, FilePosition position, PlyPlace place)
       : begin_(bytes.data()),
         at_(begin_ + position.offset),
         end_(begin_ + bytes.size()),
         place_(place) {}
 
-  PlyPosition position() const { return {static_cast<uint64_t>(at_ - begin_), 0}; }
+  FilePosition position() const { return {static_cast<uint64_t>(at_ - begin_), 0}; }
   const PlyPlace& place() const { return place_; }
 
   void BeginRecord(uint64_t record) { place_.record = record; }

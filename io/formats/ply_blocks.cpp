@@ -5,17 +5,19 @@
 
 #include "io/formats/ply_ascii_cursor.h"
 #include "io/formats/ply_binary_cursor.h"
+#include "io/formats/resident_window.h"
 
 namespace folprom::io {
 namespace {
-
-constexpr uint64_t kResidentBytes = uint64_t{32} << 20;
 
 template <class Cursor>
 class BlockIndexer {
  public:
   BlockIndexer(const MappedFile& file, const PlyHeader& header, const PlyLayout& layout)
-      : file_(file), layout_(layout), position_{header.data_begin, header.line_count + 1} {}
+      : file_(file),
+        layout_(layout),
+        position_{header.data_begin, header.line_count + 1},
+        window_(file) {}
 
   PlyBlocks Index() {
     for (plan_index_ = 0; plan_index_ < layout_.elements.size(); ++plan_index_) {
@@ -49,9 +51,9 @@ class BlockIndexer {
 
   void WalkRecords(const PlyElementPlan& plan, Cursor& cursor) {
     const uint64_t count = plan.element->count;
-    for (uint64_t begin = 0; begin < count; begin += kPlyBlockVertices) {
+    for (uint64_t begin = 0; begin < count; begin += kBlockVertices) {
       if (plan.role == PlyRole::kVertices) blocks_.vertices.push_back(cursor.position());
-      SkipRecords(plan, cursor, begin, std::min(count - begin, kPlyBlockVertices));
+      SkipRecords(plan, cursor, begin, std::min(count - begin, kBlockVertices));
     }
   }
 
@@ -87,7 +89,7 @@ class BlockIndexer {
       if (plain.stride > 0) record += WalkPlainTriangles(plan, plain, cursor, record);
       if (record == plan.element->count) break;
       cursor.BeginRecord(record);
-      const PlyPosition start = cursor.position();
+      const FilePosition start = cursor.position();
       for (size_t i = 0; i < properties.size(); ++i) {
         if (i == plan.index_list) {
           WalkIndices(plan, triangulator, cursor, start, record);
@@ -124,9 +126,9 @@ class BlockIndexer {
     uint64_t total = 0;
     if constexpr (Cursor::kFixedSizes) {
       while (record + total < plan.element->count) {
-        const PlyPosition start = cursor.position();
+        const FilePosition start = cursor.position();
         const uint64_t most =
-            std::min(plan.element->count - record - total, room_ > 0 ? room_ : kPlyBlockTriangles);
+            std::min(plan.element->count - record - total, room_ > 0 ? room_ : kBlockTriangles);
         const uint64_t count = cursor.SkipTriangles(plain.prefix, plain.stride, most);
         if (count == 0) break;
         AddTriangles(count, {plan_index_, start, record + total, 0, {}, 0}, cursor);
@@ -137,7 +139,7 @@ class BlockIndexer {
   }
 
   void WalkIndices(const PlyElementPlan& plan, const PlyTriangulator& triangulator, Cursor& cursor,
-                   PlyPosition start, uint64_t record) {
+                   FilePosition start, uint64_t record) {
     const PlyProperty& list = plan.element->properties[plan.index_list];
     const uint64_t count = cursor.Count(list.count_type);
     if (plan.role == PlyRole::kStrips) {
@@ -149,7 +151,7 @@ class BlockIndexer {
     } else if (count > 3) {
       ++blocks_.notes.polygons_triangulated;
     }
-    if (count > kPlyBlockTriangles + 2) {
+    if (count > kBlockTriangles + 2) {
       WalkLongList(plan, count, triangulator, cursor, record);
       return;
     }
@@ -175,7 +177,7 @@ class BlockIndexer {
   void AddTriangles(uint64_t count, const PlyTriangleBlock& here, const Cursor& cursor) {
     if (count > room_) {
       blocks_.triangles.push_back(here);
-      room_ = kPlyBlockTriangles;
+      room_ = kBlockTriangles;
       DropResident(cursor);
     }
     room_ -= count;
@@ -183,19 +185,14 @@ class BlockIndexer {
     blocks_.triangle_count += count;
   }
 
-  void DropResident(const Cursor& cursor) {
-    const uint64_t offset = cursor.position().offset;
-    if (offset < dropped_ + kResidentBytes) return;
-    file_.DropResident(dropped_, offset);
-    dropped_ = offset;
-  }
+  void DropResident(const Cursor& cursor) { window_.Advance(cursor.position().offset); }
 
   const MappedFile& file_;
   const PlyLayout& layout_;
-  PlyPosition position_;
+  FilePosition position_;
   size_t plan_index_ = 0;
-  uint64_t room_ = 0;     // triangles that the last block can still take
-  uint64_t dropped_ = 0;  // offset up to which the walk has given pages back
+  uint64_t room_ = 0;  // triangles that the last block can still take
+  ResidentWindow window_;
   PlyBlocks blocks_;
 };
 

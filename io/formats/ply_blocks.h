@@ -11,13 +11,10 @@
 
 namespace folprom::io {
 
-constexpr uint64_t kPlyBlockVertices = 65536;
-constexpr uint64_t kPlyBlockTriangles = 65536;
-
 /// Where the triangles of a block begin: at a record, or inside of the list of one.
 struct PlyTriangleBlock {
   size_t plan = 0;  ///< index into PlyLayout::elements
-  PlyPosition position;
+  FilePosition position;
   uint64_t record = 0;
   uint64_t items_left = 0;  ///< of the list at `position`; 0 where a record begins there
   PlyListState state;       ///< of that list
@@ -25,7 +22,7 @@ struct PlyTriangleBlock {
 };
 
 struct PlyBlocks {
-  std::vector<PlyPosition> vertices;  ///< one for each kPlyBlockVertices vertices
+  std::vector<FilePosition> vertices;  ///< one for each kBlockVertices vertices
   std::vector<PlyTriangleBlock> triangles;
   uint64_t triangle_count = 0;
   SourceNotes notes;  ///< without the ignored properties

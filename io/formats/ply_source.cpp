@@ -157,7 +157,7 @@ class PlySource final : public MeshSource {
 
   size_t vertex_block_count() const override { return blocks_.vertices.size(); }
   uint64_t vertex_block_begin(size_t block) const override {
-    return std::min<uint64_t>(block * kPlyBlockVertices, layout_.vertex_count);
+    return std::min<uint64_t>(block * kBlockVertices, layout_.vertex_count);
   }
 
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override {
@@ -188,7 +188,7 @@ class PlySource final : public MeshSource {
 
  private:
   template <class Work>
-  Result<void> WithCursor(const PlyElementPlan& plan, PlyPosition position, Work work) const {
+  Result<void> WithCursor(const PlyElementPlan& plan, FilePosition position, Work work) const {
     const PlyPlace place{&file_.path(), plan.element, 0};
     try {
       if (header_.format == PlyFormat::kAscii) {

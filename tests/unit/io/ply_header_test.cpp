@@ -39,8 +39,8 @@ TEST(PlyHeader, FindsTheBodyBehindWindowsLineEnds) {
 }
 
 TEST(PlyHeader, NamesTheKnownFormatsForAnyOtherFile) {
-  for (const std::string bytes : {"OFF\n", "p", "ply", "ply\r", "plyx\n", "\n", "PLY\n", "ply "}) {
-    ExpectFault(bytes, "unsupported format (known formats: PLY)");
+  for (const std::string bytes : {"glTF", "pl", "ply", "ply\r", "plyx\n", "\n", "PLY\n", "ply "}) {
+    ExpectFault(bytes, "unsupported format (known formats: PLY, OBJ, STL, OFF)");
   }
   ExpectFault("", "the file is empty");
 }

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -40,10 +41,10 @@ FileSizeLimit::~FileSizeLimit() {
   ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-Result<std::unique_ptr<MeshSource>> OpenBytes(const TemporaryFolder& folder,
-                                              std::string_view bytes) {
-  WriteFile(folder.File("scan.ply"), bytes);
-  return MeshSource::Open(folder.File("scan.ply"));
+Result<std::unique_ptr<MeshSource>> OpenBytes(const TemporaryFolder& folder, std::string_view bytes,
+                                              const std::string& name) {
+  WriteFile(folder.File(name), bytes);
+  return MeshSource::Open(folder.File(name));
 }
 
 Result<Mesh> AllBlocks(const MeshSource& source) {
@@ -68,17 +69,23 @@ Result<Mesh> AllBlocks(const MeshSource& source) {
   return mesh;
 }
 
-Result<Mesh> MeshOf(std::string_view bytes) {
+Result<Mesh> MeshOf(std::string_view bytes, const std::string& name) {
   const TemporaryFolder folder;
-  Result<std::unique_ptr<MeshSource>> source = OpenBytes(folder, bytes);
+  Result<std::unique_ptr<MeshSource>> source = OpenBytes(folder, bytes, name);
   if (!source) return source.error();
   return AllBlocks(**source);
 }
 
-std::string InputErrorOf(std::string_view bytes) {
-  const Result<Mesh> mesh = MeshOf(bytes);
+std::string InputErrorOf(std::string_view bytes, const std::string& name) {
+  const Result<Mesh> mesh = MeshOf(bytes, name);
   if (mesh.ok() || mesh.error().kind != ErrorKind::kInput) return "";
   return mesh.error().message;
+}
+
+std::string RandomDecimal(support::Random& random, int decimals) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", decimals, random.Between(-1000, 1000));
+  return text;
 }
 
 std::string SharedData() {

@@ -1,0 +1,62 @@
+// What the sources of OBJ, STL and OFF have in common: a mapped file and what its walk found.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "io/files/mapped_file.h"
+#include "io/formats/mesh_source.h"
+
+namespace folprom::io {
+
+/// What a source knows after its walk.
+struct SourceIndex {
+  uint64_t vertices = 0;
+  uint64_t triangles = 0;
+  uint64_t block_vertices = kBlockVertices;  ///< of each block but the last
+  size_t triangle_blocks = 0;
+  ScalarType coordinate_type = ScalarType::kFloat32;
+  SourceNotes notes;
+};
+
+/// Answers from the index all but the two reads.
+class IndexedSource : public MeshSource {
+ public:
+  const std::string& path() const override { return file_.path(); }
+  uint64_t vertex_count() const override { return index_.vertices; }
+  uint64_t triangle_count() const override { return index_.triangles; }
+  ScalarType coordinate_type() const override { return index_.coordinate_type; }
+  size_t vertex_block_count() const override {
+    return index_.vertices / index_.block_vertices + (index_.vertices % index_.block_vertices > 0);
+  }
+  uint64_t vertex_block_begin(size_t block) const override {
+    return std::min<uint64_t>(block * index_.block_vertices, index_.vertices);
+  }
+  size_t triangle_block_count() const override { return index_.triangle_blocks; }
+  const SourceNotes& notes() const override { return index_.notes; }
+  void DropResident() const override { file_.DropResident(); }
+
+ protected:
+  explicit IndexedSource(MappedFile file) : file_(std::move(file)) {}
+
+  const MappedFile& file() const { return file_; }
+  uint64_t VerticesIn(size_t block) const {
+    return vertex_block_begin(block + 1) - vertex_block_begin(block);
+  }
+  template <class Work>
+  static Result<void> Guarded(Work work) {
+    try {
+      work();
+      return {};
+    } catch (const Failure& failure) {
+      return failure.error();
+    }
+  }
+
+  SourceIndex index_;
+
+ private:
+  MappedFile file_;
+};
+
+}  // namespace folprom::io

@@ -1,12 +1,13 @@
 // Decoding, stage by stage.
 #include <algorithm>
+#include <iterator>
 
 #include "engine/decode_pipeline.h"
 #include "engine/folp_file.h"
 #include "engine/mesh_sinks.h"
 #include "engine/run_guarded.h"
 #include "folprom/folprom.h"
-#include "io/formats/ply_writer.h"
+#include "io/formats/mesh_writer.h"
 
 namespace folprom {
 namespace {
@@ -81,6 +82,7 @@ class DecodeJob {
             parallel::Runner& runner, parallel::Progress& progress)
       : output_(output), options_(options), runner_(runner), progress_(progress), file_(input) {
     CheckOptions(options);
+    io::OutputFormat(output).value();
     selection_ = SelectionFor(file_, options);
   }
 
@@ -106,9 +108,13 @@ class DecodeJob {
   }
 
  private:
-  std::unique_ptr<io::PlyWriter> MakeWriter(uint64_t vertices, uint64_t faces) const {
+  std::unique_ptr<io::MeshWriter> MakeWriter(uint64_t vertices, uint64_t faces) const {
     auto type = static_cast<io::ScalarType>(file_.table().coordinate_type);
-    return io::PlyWriter::Create(output_, vertices, faces, type, options_.overwrite).value();
+    return io::MeshWriter::Create(output_, {vertices, faces, type}, options_.overwrite).value();
+  }
+  static void Commit(io::MeshWriter& writer, DecodeReport* report) {
+    writer.Commit().value();
+    std::ranges::copy(writer.Warnings(), std::back_inserter(report->warnings));
   }
   void Decode(MeshSink& sink) {
     DecodeInto(file_.container(), file_.parameters(), selection_, options_.memory_bytes,
@@ -118,12 +124,12 @@ class DecodeJob {
   void DecodeAll(DecodeReport* report) {
     const io::LayerRecord& layer = file_.table().layers[selection_.layers - 1];
     auto writer = MakeWriter(layer.vertices, layer.faces);
-    PlySink sink(file_.lattice(), layer, file_.container().name(), *writer);
+    FileSink sink(file_.lattice(), layer, file_.container().name(), *writer);
     Decode(sink);
     report->vertices = sink.vertices();
     report->faces = sink.faces();
     sink.CheckComplete();
-    writer->Commit().value();
+    Commit(*writer, report);
   }
 
   void DecodeRegion(DecodeReport* report) {
@@ -137,7 +143,7 @@ class DecodeJob {
     report->faces = sink.faces();
     auto writer = MakeWriter(sink.vertices(), sink.faces());
     sink.WriteTo(*writer);
-    writer->Commit().value();
+    Commit(*writer, report);
   }
 
   std::string output_;

@@ -38,7 +38,7 @@ void AddSeamFaces(std::span<const SeamFace> faces, const std::vector<std::vector
 
 }  // namespace
 
-void PlySink::AddSubtree(const SubtreePart& part) {
+void FileSink::AddSubtree(const SubtreePart& part) {
   if (part.positions.size() > expected_.vertices - vertices_) ThrowCountsDiffer();
   xyz_.clear();
   xyz_.reserve(part.positions.size() * 3);
@@ -57,7 +57,7 @@ void PlySink::AddSubtree(const SubtreePart& part) {
   vertices_ += part.positions.size();
 }
 
-void PlySink::AddSeam(std::span<const SeamFace> faces) {
+void FileSink::AddSeam(std::span<const SeamFace> faces) {
   for (const SeamFace& f : faces) {
     io::Triangle triangle;
     for (size_t i = 0; i < 3; ++i) triangle[i] = border_[f[i].subtree][f[i].border];
@@ -66,18 +66,18 @@ void PlySink::AddSeam(std::span<const SeamFace> faces) {
   Flush();
 }
 
-void PlySink::Flush() {
+void FileSink::Flush() {
   if (triangles_.size() > expected_.faces - faces_) ThrowCountsDiffer();
   writer_.AppendFaces(triangles_).value();
   faces_ += triangles_.size();
   triangles_.clear();
 }
 
-void PlySink::ThrowCountsDiffer() const {
+void FileSink::ThrowCountsDiffer() const {
   throw Failure(ErrorKind::kCorrupt, input_ + ": decoded counts differ from those of the table");
 }
 
-void PlySink::CheckComplete() const {
+void FileSink::CheckComplete() const {
   if (vertices_ != expected_.vertices || faces_ != expected_.faces) ThrowCountsDiffer();
 }
 
@@ -115,7 +115,7 @@ void RegionSink::Keep(const io::Triangle& face) {
   ++faces_;
 }
 
-void RegionSink::WriteTo(io::PlyWriter& writer) {
+void RegionSink::WriteTo(io::MeshWriter& writer) {
   streams_.Finish();
   io::MappedFile positions = streams_.Map(0), faces = streams_.Map(1);
   std::span<const double> xyz = io::MappedArray<double>(positions);

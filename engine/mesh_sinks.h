@@ -1,4 +1,4 @@
-// Where decoded parts go: a PLY file, the part of it inside a box, or a digest.
+// Where decoded parts go: a mesh file, the part of it inside a box, or a digest.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@
 #include "engine/decode_pipeline.h"
 #include "engine/mesh/lattice.h"
 #include "io/container/file_table.h"
-#include "io/formats/ply_writer.h"
+#include "io/formats/mesh_writer.h"
 #include "io/spill/spill.h"
 
 namespace folprom {
 
 /// Writes every part straight to its place in the output.
-class PlySink final : public MeshSink {
+class FileSink final : public MeshSink {
  public:
   /// expected: counts for which the writer was made. More, or at the end fewer, is kCorrupt;
   /// `input` is the file that the message names.
-  PlySink(const Lattice& lattice, const io::LayerRecord& expected, std::string input,
-          io::PlyWriter& writer)
+  FileSink(const Lattice& lattice, const io::LayerRecord& expected, std::string input,
+           io::MeshWriter& writer)
       : lattice_(lattice), expected_(expected), input_(std::move(input)), writer_(writer) {}
   void CheckComplete() const;
   void AddSubtree(const SubtreePart& part) override;
@@ -37,7 +37,7 @@ class PlySink final : public MeshSink {
   Lattice lattice_;
   io::LayerRecord expected_;
   std::string input_;
-  io::PlyWriter& writer_;
+  io::MeshWriter& writer_;
   uint64_t vertices_ = 0, faces_ = 0;
   std::vector<std::vector<uint64_t>> border_;  ///< per subtree: output index of each border set
   std::vector<double> xyz_;
@@ -55,7 +55,7 @@ class RegionSink final : public MeshSink {
   uint64_t vertices() const { return vertices_; }
   uint64_t faces() const { return faces_; }
   /// Ends the collection and appends everything to the writer.
-  void WriteTo(io::PlyWriter& writer);
+  void WriteTo(io::MeshWriter& writer);
 
  private:
   void Keep(const io::Triangle& face);

@@ -79,8 +79,8 @@ int Run(const CompareFlags& flags) {
 Verb AddCompare(CLI::App& program) {
   auto flags = std::make_shared<CompareFlags>();
   CLI::App* verb = program.add_subcommand("compare", kDescription);
-  verb->add_option("A", flags->a, "Original (PLY or .folp)")->type_name("")->required();
-  verb->add_option("B", flags->b, "Mesh to compare with it (PLY or .folp)")
+  verb->add_option("A", flags->a, "Original (mesh file or .folp)")->type_name("")->required();
+  verb->add_option("B", flags->b, "Mesh to compare with it (mesh file or .folp)")
       ->type_name("")
       ->required();
   AddCountOption(verb, "--samples", &flags->samples,

@@ -15,9 +15,10 @@ namespace folprom::cli {
 namespace {
 
 constexpr const char* kDescription =
-    "Decode a file, or a coarser mesh from a part of it, to PLY\n"
+    "Decode a file, or a coarser mesh from a part of it\n"
     "\n"
     "  folprom decode scan.folp -o scan.ply\n"
+    "  folprom decode scan.folp -o scan.obj\n"
     "  folprom decode scan.folp -o preview.ply --max-vertices 100k\n"
     "  folprom decode scan.folp -o coarse.ply --max-error 0.5\n"
     "  folprom decode scan.folp -o corner.ply --region 0,0,0,10,10,10";
@@ -98,8 +99,8 @@ Verb AddDecode(CLI::App& program) {
   auto flags = std::make_shared<DecodeFlags>();
   CLI::App* verb = program.add_subcommand("decode", kDescription);
   verb->add_option("F.folp", flags->input, "File to read")->type_name("")->required();
-  verb->add_option("-o,--output", flags->output, "Mesh to write (binary PLY)")
-      ->type_name("OUT.ply")
+  verb->add_option("-o,--output", flags->output, "Mesh to write: .ply, .obj, .stl or .off")
+      ->type_name("OUT")
       ->required();
   verb->add_flag("-f,--force", flags->force, "May replace the output");
   CLI::Option* bounds[] = {

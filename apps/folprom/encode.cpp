@@ -136,7 +136,7 @@ int Run(const EncodeFlags& flags) {
 Verb AddEncode(CLI::App& program) {
   auto flags = std::make_shared<EncodeFlags>();
   CLI::App* verb = program.add_subcommand("encode", kDescription);
-  verb->add_option("SCAN", flags->input, "Mesh to read (PLY)")->type_name("");
+  verb->add_option("SCAN", flags->input, "Mesh to read: PLY, OBJ, STL or OFF")->type_name("");
   verb->add_option("-o,--output", flags->output, "File to write")->type_name("F.folp");
   verb->add_flag("-f,--force", flags->force, "May replace the output");
   verb->add_option("--config", flags->config, "Settings to start from; flags win")

@@ -11,7 +11,7 @@
 #include "apps/folprom/session.h"
 #include "apps/folprom/synth_surface.h"
 #include "apps/folprom/verbs.h"
-#include "io/formats/ply_writer.h"
+#include "io/formats/mesh_writer.h"
 
 namespace folprom::cli {
 namespace {
@@ -32,16 +32,16 @@ struct SynthFlags {
   bool force = false;
 };
 
-class PlySink : public SurfaceSink {
+class FileSink : public SurfaceSink {
  public:
-  explicit PlySink(io::PlyWriter& writer) : writer_(writer) {}
+  explicit FileSink(io::MeshWriter& writer) : writer_(writer) {}
   void AddVertices(std::span<const double> xyz) override { writer_.AppendVertices(xyz).value(); }
   void AddFaces(std::span<const io::Triangle> faces) override {
     writer_.AppendFaces(faces).value();
   }
 
  private:
-  io::PlyWriter& writer_;
+  io::MeshWriter& writer_;
 };
 
 int Run(const SynthFlags& flags) {
@@ -51,16 +51,20 @@ int Run(const SynthFlags& flags) {
                   fmt::format("--vertices: must be {} .. {}", SynthSurface::kMinVertices,
                               SynthSurface::kMaxVertices));
   }
+  io::OutputFormat(flags.output).value();
   CheckOutput("", flags.output, flags.force);
   Session session(flags.common);
   const SynthSurface surface(flags.kind, vertices, flags.seed, session.progress());
-  auto writer = io::PlyWriter::Create(flags.output, surface.vertex_count(), surface.face_count(),
-                                      io::ScalarType::kFloat32, flags.force)
-                    .value();
-  PlySink sink(*writer);
+  auto writer =
+      io::MeshWriter::Create(
+          flags.output, {surface.vertex_count(), surface.face_count(), io::ScalarType::kFloat32},
+          flags.force)
+          .value();
+  FileSink sink(*writer);
   surface.Generate(sink, session.progress());
   writer->Commit().value();
   session.StopDisplay();
+  LogWarnings(writer->Warnings());
 
   if (flags.common.json) {
     PrintJson({{"output", flags.output},
@@ -93,8 +97,8 @@ Verb AddSynth(CLI::App& program) {
       ->type_name("KIND");
   verb->add_option("--seed", flags->seed, "Another seed gives another surface; default 1")
       ->type_name("S");
-  verb->add_option("-o,--output", flags->output, "Mesh to write (binary PLY)")
-      ->type_name("SCAN.ply")
+  verb->add_option("-o,--output", flags->output, "Mesh to write: .ply, .obj, .stl or .off")
+      ->type_name("SCAN")
       ->required();
   verb->add_flag("-f,--force", flags->force, "May replace the output");
   AddCommonFlags(verb, &flags->common);

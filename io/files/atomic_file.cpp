@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -54,7 +53,7 @@ class AtomicFileOnDisk final : public AtomicFile {
     if (!fs::is_directory(folder_)) {
       throw OutputFailure(path, "the folder " + folder_ + " does not exist");
     }
-    OpenTemporary();
+    file_ = CreateHiddenFile(folder_, path_, &temporary_);
     if (old_mode) ::fchmod(file_.get(), *old_mode);
   }
 
@@ -71,6 +70,15 @@ class AtomicFileOnDisk final : public AtomicFile {
   Result<void> WriteAt(uint64_t offset, std::span<const uint8_t> bytes) override {
     return Guarded([&] { WriteAllAt(file_.get(), offset, bytes, path_); });
   }
+
+  Result<void> AppendFrom(const ScratchFile& scratch) override {
+    return Guarded([&] {
+      scratch.CopyTo(file_.get(), end_, path_);
+      end_ += scratch.size();
+    });
+  }
+
+  const std::string& folder() const override { return folder_; }
 
   Result<void> Commit() override {
     return Guarded([&] {
@@ -94,23 +102,6 @@ class AtomicFileOnDisk final : public AtomicFile {
     } catch (const Failure& failure) {
       return failure.error();
     }
-  }
-
-  // Not mkstemp: the mode shall be that of any new file under the caller's umask.
-  void OpenTemporary() {
-    static std::atomic<uint64_t> serial{0};
-    for (int attempt = 0; attempt < 1000; ++attempt) {
-      const std::string name = (fs::path(folder_) / (".folprom-" + std::to_string(::getpid()) +
-                                                     "-" + std::to_string(serial++) + ".tmp"))
-                                   .string();
-      file_ = Descriptor(::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-      if (file_.open()) {
-        temporary_ = name;
-        return;
-      }
-      if (errno != EEXIST) break;
-    }
-    ThrowSystemError(ErrorKind::kOutput, path_, ("cannot create a file in " + folder_).c_str());
   }
 
   void Rename() {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "folprom/result.h"
+#include "io/files/scratch_file.h"
 
 namespace folprom::io {
 
@@ -23,6 +24,10 @@ class AtomicFile {
   virtual Result<void> Append(std::span<const uint8_t> bytes) = 0;
   /// Writes at an absolute offset; does not move the append position.
   virtual Result<void> WriteAt(uint64_t offset, std::span<const uint8_t> bytes) = 0;
+  /// Appends all of a scratch file, by the file system where it can.
+  virtual Result<void> AppendFrom(const ScratchFile& scratch) = 0;
+  /// Where the file will be, and where there is room for scratch files.
+  virtual const std::string& folder() const = 0;
   virtual Result<void> Commit() = 0;
 };
 

@@ -16,8 +16,16 @@ Result<MappedFile> MappedFile::Open(const std::string& path) {
     // Without O_NONBLOCK a named pipe with no writer would block here for ever.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (!file.open()) ThrowSystemError(ErrorKind::kInput, path, "cannot open");
+    return OfDescriptor(file.get(), path);
+  } catch (const Failure& failure) {
+    return failure.error();
+  }
+}
+
+Result<MappedFile> MappedFile::OfDescriptor(int file, const std::string& path) {
+  try {
     struct stat status {};
-    if (::fstat(file.get(), &status) != 0) {
+    if (::fstat(file, &status) != 0) {
       ThrowSystemError(ErrorKind::kInput, path, "cannot read its status");
     }
     if (!S_ISREG(status.st_mode)) {
@@ -29,7 +37,7 @@ Result<MappedFile> MappedFile::Open(const std::string& path) {
     mapped.path_ = path;
     if (status.st_size == 0) return mapped;
     const auto size = static_cast<size_t>(status.st_size);
-    void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
+    void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
     if (data == MAP_FAILED) ThrowSystemError(ErrorKind::kInput, path, "cannot map into memory");
     mapped.data_ = static_cast<const uint8_t*>(data);
     mapped.size_ = size;

@@ -16,6 +16,8 @@ class MappedFile {
  public:
   /// kInput with path and reason: missing, a directory, not a regular file, not readable.
   static Result<MappedFile> Open(const std::string& path);
+  /// The same of an open regular file; `path` is for messages.
+  static Result<MappedFile> OfDescriptor(int file, const std::string& path);
   MappedFile() = default;
   MappedFile(MappedFile&& other) noexcept { swap(other); }
   MappedFile& operator=(MappedFile&& other) noexcept {

@@ -1,9 +1,12 @@
 #include "io/files/posix.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <filesystem>
 #include <limits>
 #include <system_error>
 
@@ -37,6 +40,21 @@ void Descriptor::CloseChecked(const std::string& path) {
   if (::close(std::exchange(fd_, -1)) != 0 && errno != EINTR) {
     ThrowSystemError(ErrorKind::kOutput, path, "cannot close");
   }
+}
+
+// Not mkstemp: the mode shall be that of any new file under the caller's umask.
+Descriptor CreateHiddenFile(const std::string& folder, const std::string& path, std::string* name) {
+  static std::atomic<uint64_t> serial{0};
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    *name = (std::filesystem::path(folder) /
+             (".folprom-" + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".tmp"))
+                .string();
+    Descriptor file(::open(name->c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (file.open()) return file;
+    if (errno != EEXIST) break;
+  }
+  name->clear();
+  ThrowSystemError(ErrorKind::kOutput, path, ("cannot create a file in " + folder).c_str());
 }
 
 void ThrowSystemError(ErrorKind kind, const std::string& path, const char* what) {

@@ -32,6 +32,10 @@ class Descriptor {
 /// Throws Failure "path: what: reason of errno". Reads errno first.
 [[noreturn]] void ThrowSystemError(ErrorKind kind, const std::string& path, const char* what);
 
+/// A new hidden file in the folder, open to read and write, and its path in *name. kOutput with
+/// `path`, for which it is made.
+Descriptor CreateHiddenFile(const std::string& folder, const std::string& path, std::string* name);
+
 /// Writes all bytes at the descriptor's position; kOutput with `path` on any shortfall.
 void WriteAll(int fd, std::span<const uint8_t> bytes, const std::string& path);
 

@@ -80,7 +80,8 @@ class OffBinaryWalk {
     window_.Advance(at_);
     if (Left() < kWord) return false;
     const uint64_t corners = Next();
-    if (corners > Left() / kWord) return false;
+    // No face has no corner; a number of no colours, taken for one, would have.
+    if (corners == 0 || corners > Left() / kWord) return false;
     at_ += corners * kWord;
     if (index_.form.face_colours) {
       if (Left() < kWord) return false;

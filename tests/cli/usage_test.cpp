@@ -106,13 +106,13 @@ TEST_F(Usage, MissingInputIsAnInputError) {
 
 TEST_F(Usage, RefusesToOverwriteWithoutForce) {
   ASSERT_EQ(Run({"synth", "--vertices", "100", "-o", Path("s.ply"), "-q"}).exit_code, 0);
-  WriteText(Path("old"), "old");
-  ExpectError({"synth", "--vertices", "100", "-o", Path("old")}, 5, "-f");
-  ExpectError({"encode", Path("s.ply"), "-o", Path("old")}, 5, "-f");
-  ExpectError({"decode", Path("s.ply"), "-o", Path("old")}, 5, "-f");
-  EXPECT_EQ(FileText(Path("old")), "old");
-  EXPECT_EQ(Run({"synth", "--vertices", "100", "-o", Path("old"), "-q", "-f"}).exit_code, 0);
-  EXPECT_EQ(FileText(Path("old")), FileText(Path("s.ply")));
+  WriteText(Path("old.ply"), "old");
+  ExpectError({"synth", "--vertices", "100", "-o", Path("old.ply")}, 5, "-f");
+  ExpectError({"encode", Path("s.ply"), "-o", Path("old.ply")}, 5, "-f");
+  ExpectError({"decode", Path("s.ply"), "-o", Path("old.ply")}, 5, "-f");
+  EXPECT_EQ(FileText(Path("old.ply")), "old");
+  EXPECT_EQ(Run({"synth", "--vertices", "100", "-o", Path("old.ply"), "-q", "-f"}).exit_code, 0);
+  EXPECT_EQ(FileText(Path("old.ply")), FileText(Path("s.ply")));
 }
 
 TEST_F(Usage, NeverReplacesTheInput) {
@@ -153,9 +153,13 @@ TEST_F(Usage, FileThatMayNotGrowIsAnOutputErrorAndLeavesNothing) {
   std::filesystem::create_directory(Path("tmp"));
   const std::vector<std::string> before = Files();
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"synth", "--vertices", "3000", "-o", Path("o")},
+       {std::vector<std::string>{"synth", "--vertices", "3000", "-o", Path("o.ply")},
+        {"synth", "--vertices", "3000", "-o", Path("o.stl")},
         {"encode", Path("s.ply"), "-o", Path("o"), "--tmp", Path("tmp")},
-        {"decode", Path("s.folp"), "-o", Path("o"), "--tmp", Path("tmp")}}) {
+        {"decode", Path("s.folp"), "-o", Path("o.ply"), "--tmp", Path("tmp")},
+        {"decode", Path("s.folp"), "-o", Path("o.obj"), "--tmp", Path("tmp")},
+        {"decode", Path("s.folp"), "-o", Path("o.stl"), "--tmp", Path("tmp")},
+        {"decode", Path("s.folp"), "-o", Path("o.off"), "--tmp", Path("tmp")}}) {
     const Outcome outcome = Wait(Start(arguments, 4000));
     EXPECT_EQ(outcome.exit_code, 5) << arguments[0] << ": " << outcome.err;
     EXPECT_NE(outcome.err.find("cannot write"), std::string::npos) << outcome.err;

@@ -1,5 +1,6 @@
 // Paths that cannot be read or written, and outputs that are already there.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -11,13 +12,16 @@ namespace folprom::hostile {
 namespace fs = std::filesystem;
 namespace {
 
+/// Files that are there already, of each ending that an output may have.
+constexpr const char* kOld[] = {"old.ply", "old.obj", "old.stl", "old.off"};
+
 class BadPath : public ::testing::Test {
  protected:
   BadPath() {
     WriteFile(folder_.File("scan.ply"), PlyBytes(WavySheet(10)));
     WriteFile(folder_.File("scan.folp"), Encoded(WavySheet(10), SmallOptions()));
-    WriteFile(folder_.File("old"), std::string_view("old"));
-    fs::create_directory(folder_.File("folder"));
+    for (const char* name : kOld) WriteFile(folder_.File(name), std::string_view("old"));
+    fs::create_directory(folder_.File("folder.ply"));
     before_ = folder_.Names();
   }
   template <class Report>
@@ -46,11 +50,13 @@ class BadPath : public ::testing::Test {
       EXPECT_EQ(error.kind, ErrorKind::kOutput) << error.message;
       EXPECT_NE(error.message.find(part), std::string::npos) << error.message;
       EXPECT_EQ(folder_.Names(), before_);
-      EXPECT_EQ(FileContent(folder_.File("old")), (Bytes{'o', 'l', 'd'}));
+      for (const char* name : kOld) {
+        EXPECT_EQ(FileContent(folder_.File(name)), (Bytes{'o', 'l', 'd'}));
+      }
     }
   }
   void ExpectInputError(const std::string& input) {
-    const std::string out = folder_.File("out");
+    const std::string out = folder_.File("out.ply");
     auto verified = VerifyFile(input, "", {}, *runner_, progress_);
     auto info = ReadInfo(input);
     for (const Error& error : {Encode(input, out), Decode(input, out), Decode(input, out, true),
@@ -69,40 +75,66 @@ class BadPath : public ::testing::Test {
 };
 
 TEST_F(BadPath, OutputThatExistsIsKept) {
-  ExpectOutputError(folder_.File("old"), folder_.File("old"));
+  for (const char* name : kOld) ExpectOutputError(folder_.File(name), folder_.File(name));
 }
 
 TEST_F(BadPath, OutputInAMissingFolderIsRefused) {
-  ExpectOutputError(folder_.File("missing/out"), "missing");
+  for (const char* name : {"missing/out.ply", "missing/out.obj", "missing/out.stl"}) {
+    ExpectOutputError(folder_.File(name), "missing");
+  }
 }
 
 TEST_F(BadPath, OutputThatIsAFolderIsRefusedEvenByForce) {
-  ExpectOutputError(folder_.File("folder"), folder_.File("folder"));
+  ExpectOutputError(folder_.File("folder.ply"), folder_.File("folder.ply"));
   overwrite_ = true;
-  ExpectOutputError(folder_.File("folder"), folder_.File("folder"));
+  ExpectOutputError(folder_.File("folder.ply"), folder_.File("folder.ply"));
 }
 
 TEST_F(BadPath, OutputBelowAFileIsRefused) {
-  ExpectOutputError(folder_.File("old/out"), folder_.File("old"));
+  ExpectOutputError(folder_.File("old.ply/out.ply"), folder_.File("old.ply"));
 }
 
 TEST_F(BadPath, OutputThatExistsIsReplacedByForce) {
   overwrite_ = true;
-  EXPECT_EQ(Encode(folder_.File("scan.ply"), folder_.File("old")).message, "no error");
-  EXPECT_EQ(FileContent(folder_.File("old")), FileContent(folder_.File("scan.folp")));
-  EXPECT_EQ(Decode(folder_.File("scan.folp"), folder_.File("old")).message, "no error");
+  EXPECT_EQ(Encode(folder_.File("scan.ply"), folder_.File("old.ply")).message, "no error");
+  EXPECT_EQ(FileContent(folder_.File("old.ply")), FileContent(folder_.File("scan.folp")));
+  for (const char* name : kOld) {
+    EXPECT_EQ(Decode(folder_.File("scan.folp"), folder_.File(name)).message, "no error");
+    EXPECT_GT(fs::file_size(folder_.File(name)), 1000u);
+  }
   EXPECT_EQ(folder_.Names(), before_);
 }
 
+TEST_F(BadPath, OutputOfAnUnknownEndingIsAUsageError) {
+  for (const char* name : {"out", "out.3ds", "out.ply.gz", ".ply", "ply", "out.plyx"}) {
+    for (const bool region : {false, true}) {
+      const Error error = Decode(folder_.File("scan.folp"), folder_.File(name), region);
+      EXPECT_EQ(error.kind, ErrorKind::kUsage) << error.message;
+      EXPECT_NE(error.message.find("(known: .ply, .obj, .stl, .off)"), std::string::npos);
+      EXPECT_EQ(folder_.Names(), before_);
+    }
+  }
+}
+
 TEST_F(BadPath, InputThatIsMissingIsRefused) { ExpectInputError(folder_.File("missing")); }
-TEST_F(BadPath, InputThatIsAFolderIsRefused) { ExpectInputError(folder_.File("folder")); }
-TEST_F(BadPath, InputOfAnotherKindIsRefused) { ExpectInputError(folder_.File("old")); }
+TEST_F(BadPath, InputThatIsAFolderIsRefused) { ExpectInputError(folder_.File("folder.ply")); }
+TEST_F(BadPath, InputOfAnotherKindIsRefused) {
+  for (const char* name : kOld) ExpectInputError(folder_.File(name));
+}
+TEST_F(BadPath, InputThatIsADeviceOrAPipeIsRefusedAtOnce) {
+  ExpectInputError("/dev/null");
+  for (const char* name : {"pipe", "pipe.obj", "pipe.stl", "pipe.off"}) {
+    ASSERT_EQ(::mkfifo(folder_.File(name).c_str(), 0600), 0);
+    before_ = folder_.Names();
+    ExpectInputError(folder_.File(name));
+  }
+}
 
 TEST_F(BadPath, MissingTemporaryFolderIsRefused) {
   EncodeOptions options = SmallOptions();
   options.temporary_folder = folder_.File("missing");
   auto report =
-      EncodeFile(folder_.File("scan.ply"), folder_.File("out"), options, *runner_, progress_);
+      EncodeFile(folder_.File("scan.ply"), folder_.File("out.ply"), options, *runner_, progress_);
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().kind, ErrorKind::kOutput) << report.error().message;
   EXPECT_NE(report.error().message.find("missing"), std::string::npos);
@@ -117,8 +149,8 @@ TEST_F(BadPath, OptionsThatContradictThemselvesAreRefused) {
   inside_out.use_region = true;
   inside_out.region_lo[1] = 1;
   for (const DecodeOptions& options : {two_bounds, inside_out}) {
-    auto report =
-        DecodeFile(folder_.File("scan.folp"), folder_.File("out"), options, *runner_, progress_);
+    auto report = DecodeFile(folder_.File("scan.folp"), folder_.File("out.ply"), options, *runner_,
+                             progress_);
     ASSERT_FALSE(report.ok());
     EXPECT_EQ(report.error().kind, ErrorKind::kUsage);
     EXPECT_EQ(folder_.Names(), before_);
@@ -126,7 +158,7 @@ TEST_F(BadPath, OptionsThatContradictThemselvesAreRefused) {
   EncodeOptions wrong = SmallOptions();
   wrong.codec.children = 1;
   auto report =
-      EncodeFile(folder_.File("scan.ply"), folder_.File("out"), wrong, *runner_, progress_);
+      EncodeFile(folder_.File("scan.ply"), folder_.File("out.ply"), wrong, *runner_, progress_);
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().kind, ErrorKind::kUsage);
   EXPECT_EQ(folder_.Names(), before_);

@@ -11,44 +11,13 @@
 
 #include "parallel/progress.h"
 #include "parallel/runner.h"
+#include "tests/hostile/encode_error.h"
 #include "tests/hostile/guarded_child.h"
 #include "tests/hostile/support.h"
 
 namespace folprom::hostile {
 namespace fs = std::filesystem;
 namespace {
-
-/// Encodes `scan`, which may fail only with kInput, and then leaves nothing; what was encoded must
-/// verify. Returns the error's message, empty after success.
-std::string EncodeError(const std::string& scan, EncodeOptions options = SmallOptions()) {
-  TemporaryFolder folder;
-  auto runner = parallel::MakeSerialRunner();
-  parallel::Progress progress;
-  options.temporary_folder = folder.path();
-  auto report = EncodeFile(scan, folder.File("out.folp"), options, *runner, progress);
-  if (!report.ok()) {
-    EXPECT_EQ(report.error().kind, ErrorKind::kInput) << scan << ": " << report.error().message;
-    EXPECT_TRUE(folder.Names().empty()) << scan;
-    EXPECT_FALSE(report.error().message.empty());
-    return report.error().message;
-  }
-  EXPECT_EQ(folder.Names(), std::vector<std::string>{"out.folp"}) << scan;
-  DecodeOptions decode;
-  decode.temporary_folder = folder.path();
-  auto verified = VerifyFile(folder.File("out.folp"), scan, decode, *runner, progress);
-  EXPECT_TRUE(verified.ok()) << scan;
-  if (verified.ok()) {
-    EXPECT_TRUE(verified->lossless) << scan << ": " << verified->reason;
-  }
-  return "";
-}
-
-std::string EncodeErrorOfBytes(const std::string& bytes,
-                               const EncodeOptions& options = SmallOptions()) {
-  TemporaryFolder folder;
-  WriteFile(folder.File("scan.ply"), std::string_view(bytes));
-  return EncodeError(folder.File("scan.ply"), options);
-}
 
 TestMesh TinyMesh() {
   TestMesh mesh = WavySheet(4);
@@ -60,7 +29,7 @@ TEST(BadScan, OfTheMalformedSharedFilesIsRefusedOrVerifies) {
   if (SharedData().empty()) GTEST_SKIP() << "no shared data: set FOLPROM_SHARED";
   std::vector<std::string> scans;
   for (const auto& entry : fs::directory_iterator(SharedData() + "malformed")) {
-    if (entry.path().extension() == ".ply") scans.push_back(entry.path().string());
+    scans.push_back(entry.path().string());
   }
   std::sort(scans.begin(), scans.end());
   ASSERT_FALSE(scans.empty());

@@ -78,7 +78,7 @@ class Interrupted : public ::testing::Test {
       EncodeOptions options = SmallOptions(1000);
       options.temporary_folder = folder_.path();
       return Outcome(
-          EncodeFile(folder_.File("scan.ply"), folder_.File("out"), options, runner, progress));
+          EncodeFile(folder_.File("scan.ply"), folder_.File("out.ply"), options, runner, progress));
     };
   }
   Job Decode(bool region) {
@@ -90,8 +90,8 @@ class Interrupted : public ::testing::Test {
         options.region_lo[i] = -10;
         options.region_hi[i] = 0.7;
       }
-      return Outcome(
-          DecodeFile(folder_.File("scan.folp"), folder_.File("out"), options, runner, progress));
+      return Outcome(DecodeFile(folder_.File("scan.folp"), folder_.File("out.ply"), options, runner,
+                                progress));
     };
   }
   Job Verify() {
@@ -107,16 +107,16 @@ class Interrupted : public ::testing::Test {
   void ExpectNothingLeft(const Job& job, bool has_output) {
     const std::vector<std::string> stages = StagesOf(job);
     EXPECT_FALSE(stages.empty());
-    std::remove(folder_.File("out").c_str());
+    std::remove(folder_.File("out.ply").c_str());
     int interrupted = 0;
     for (const std::string& stage : stages) {
       for (uint64_t done : {0, 1, 2000}) {
         const Result<void> result = CancelledAt(job, stage, done, 1 + static_cast<int>(done % 3));
         if (result.ok()) {
           std::vector<std::string> expected = before_;
-          if (has_output) expected.insert(expected.begin(), "out");
+          if (has_output) expected.insert(expected.begin(), "out.ply");
           EXPECT_EQ(folder_.Names(), expected) << stage << " " << done;
-          std::remove(folder_.File("out").c_str());
+          std::remove(folder_.File("out.ply").c_str());
           continue;
         }
         ++interrupted;
@@ -149,7 +149,7 @@ TEST_F(Interrupted, BeforeItBeginsDoesNothing) {
 }
 
 TEST_F(Interrupted, KeepsTheOutputOfBefore) {
-  WriteFile(folder_.File("out"), std::string_view("old"));
+  WriteFile(folder_.File("out.ply"), std::string_view("old"));
   before_ = folder_.Names();
   auto runner = parallel::MakeTbbRunner(2);
   parallel::Progress progress;
@@ -162,13 +162,13 @@ TEST_F(Interrupted, KeepsTheOutputOfBefore) {
   options.temporary_folder = folder_.path();
   options.overwrite = true;
   auto report =
-      EncodeFile(folder_.File("scan.ply"), folder_.File("out"), options, *runner, progress);
+      EncodeFile(folder_.File("scan.ply"), folder_.File("out.ply"), options, *runner, progress);
   ended = true;
   canceller.join();
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().kind, ErrorKind::kInterrupted);
   EXPECT_EQ(folder_.Names(), before_);
-  EXPECT_EQ(FileContent(folder_.File("out")), (Bytes{'o', 'l', 'd'}));
+  EXPECT_EQ(FileContent(folder_.File("out.ply")), (Bytes{'o', 'l', 'd'}));
 }
 
 }  // namespace

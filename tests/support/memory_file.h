@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "folprom/result.h"
@@ -24,6 +25,10 @@ class MemoryFile final : public io::AtomicFile {
   Result<void> WriteAt(uint64_t, std::span<const uint8_t>) override {
     return Error{ErrorKind::kInternal, "not used"};
   }
+  Result<void> AppendFrom(const io::ScratchFile&) override {
+    return Error{ErrorKind::kInternal, "not used"};
+  }
+  const std::string& folder() const override { return folder_; }
   Result<void> Commit() override { return Error{ErrorKind::kInternal, "not the writer's to call"}; }
 
   const std::vector<uint8_t>& bytes() const { return bytes_; }
@@ -33,6 +38,7 @@ class MemoryFile final : public io::AtomicFile {
   size_t room_;
   size_t appends_ = 0;
   std::vector<uint8_t> bytes_;
+  std::string folder_;
 };
 
 /// The bytes of a .folp file of this table and these segments.

@@ -58,7 +58,9 @@ struct DecodeReport {
   std::vector<std::string> warnings;  ///< for instance "file is cut after layer 12 of 30"
 };
 
-/// Decodes to a binary PLY. Errors: kUsage, kInput, kCorrupt, kOutput, kLimit, kInterrupted.
+/// Decodes to a mesh file of the format that the ending of `output` names: .ply (binary), .obj,
+/// .stl (binary) or .off; kUsage for any other. The warnings name what that format does not hold.
+/// Errors: kUsage, kInput, kCorrupt, kOutput, kLimit, kInterrupted.
 Result<DecodeReport> DecodeFile(const std::string& input, const std::string& output,
                                 const DecodeOptions& options, parallel::Runner& runner,
                                 parallel::Progress& progress);

@@ -1,4 +1,4 @@
-#include "io/formats/ply_writer.h"
+#include "io/formats/mesh_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using testing::WriteFile;
 TEST(PlyWriter, WritesTheBytesThatReadersExpect) {
   const TemporaryFolder folder;
   auto writer =
-      PlyWriter::Create(folder.File("out.ply"), 3, 1, ScalarType::kFloat32, false).value();
+      MeshWriter::Create(folder.File("out.ply"), {3, 1, ScalarType::kFloat32}, false).value();
   writer->AppendFaces(std::vector<Triangle>{{0, 1, 2}}).value();
   writer->AppendVertices(std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, -2}).value();
   writer->Commit().value();
@@ -42,7 +42,7 @@ TEST(PlyWriter, KeepsTheBitsOfANan) {
                                                          0xfff7ffffe0000000}) {
       xyz.push_back(std::bit_cast<double>(bits));
     }
-    auto writer = PlyWriter::Create(folder.File("out.ply"), 1, 0, type, false).value();
+    auto writer = MeshWriter::Create(folder.File("out.ply"), {1, 0, type}, false).value();
     writer->AppendVertices(xyz).value();
     writer->Commit().value();
     const auto source = MeshSource::Open(folder.File("out.ply")).value();
@@ -56,7 +56,7 @@ TEST(PlyWriter, BringsBackLargeMeshesWrittenInAnyInterleaving) {
   const TemporaryFolder folder;
   constexpr uint64_t kCount = 150000;
   auto writer =
-      PlyWriter::Create(folder.File("out.ply"), kCount, kCount, ScalarType::kFloat64, false)
+      MeshWriter::Create(folder.File("out.ply"), {kCount, kCount, ScalarType::kFloat64}, false)
           .value();
   std::vector<double> xyz;
   std::vector<Triangle> faces;
@@ -79,7 +79,7 @@ TEST(PlyWriter, BringsBackLargeMeshesWrittenInAnyInterleaving) {
 
 TEST(PlyWriter, WritesAnEmptyMesh) {
   const TemporaryFolder folder;
-  PlyWriter::Create(folder.File("out.ply"), 0, 0, ScalarType::kFloat32, false)
+  MeshWriter::Create(folder.File("out.ply"), {0, 0, ScalarType::kFloat32}, false)
       .value()
       ->Commit()
       .value();
@@ -97,7 +97,7 @@ TEST(PlyWriter, RefusesToCommitAnythingButWhatWasAnnounced) {
   };
   {
     auto writer =
-        PlyWriter::Create(folder.File("out.ply"), 2, 1, ScalarType::kFloat32, true).value();
+        MeshWriter::Create(folder.File("out.ply"), {2, 1, ScalarType::kFloat32}, true).value();
     expect_internal(writer->Commit());
     expect_internal(writer->AppendVertices(std::vector<double>(9, 0.0)));
     expect_internal(writer->AppendVertices(std::vector<double>(4, 0.0)));
@@ -109,12 +109,12 @@ TEST(PlyWriter, RefusesToCommitAnythingButWhatWasAnnounced) {
 
 TEST(PlyWriter, RefusesMoreVerticesThanIndicesCanName) {
   const TemporaryFolder folder;
-  const auto too_many =
-      PlyWriter::Create(folder.File("out.ply"), uint64_t{1} << 32, 0, ScalarType::kFloat32, false);
+  const auto too_many = MeshWriter::Create(folder.File("out.ply"),
+                                           {uint64_t{1} << 32, 0, ScalarType::kFloat32}, false);
   ASSERT_FALSE(too_many.ok());
   EXPECT_EQ(too_many.error().kind, ErrorKind::kLimit);
   const auto too_large =
-      PlyWriter::Create(folder.File("out.ply"), 3, UINT64_MAX, ScalarType::kFloat32, false);
+      MeshWriter::Create(folder.File("out.ply"), {3, UINT64_MAX, ScalarType::kFloat32}, false);
   EXPECT_EQ(too_large.error().kind, ErrorKind::kLimit);
   EXPECT_TRUE(folder.Names().empty());
 }
@@ -122,7 +122,8 @@ TEST(PlyWriter, RefusesMoreVerticesThanIndicesCanName) {
 TEST(PlyWriter, RefusesToOverwriteUnlessForced) {
   const TemporaryFolder folder;
   WriteFile(folder.File("out.ply"), "old");
-  const auto writer = PlyWriter::Create(folder.File("out.ply"), 0, 0, ScalarType::kFloat32, false);
+  const auto writer =
+      MeshWriter::Create(folder.File("out.ply"), {0, 0, ScalarType::kFloat32}, false);
   ASSERT_FALSE(writer.ok());
   EXPECT_EQ(writer.error().kind, ErrorKind::kOutput);
 }
@@ -131,7 +132,7 @@ TEST(PlyWriter, ReportsAFullDisk) {
   const TemporaryFolder folder;
   {
     auto writer =
-        PlyWriter::Create(folder.File("out.ply"), 1000, 0, ScalarType::kFloat64, false).value();
+        MeshWriter::Create(folder.File("out.ply"), {1000, 0, ScalarType::kFloat64}, false).value();
     writer->AppendVertices(std::vector<double>(3000, 1.0)).value();
     const testing::FileSizeLimit limit(4096);
     const Result<void> result = writer->Commit();

@@ -1,0 +1,54 @@
+// What the writers of all formats check.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/files/atomic_file.h"
+#include "io/formats/mesh_writer.h"
+
+namespace folprom::io {
+
+/// Sees that what comes is what was announced. The functions below may throw Failure.
+class CountedWriter : public MeshWriter {
+ public:
+  Result<void> AppendVertices(std::span<const double> xyz) final;
+  Result<void> AppendFaces(std::span<const Triangle> faces) final;
+  Result<void> Commit() final;
+  std::vector<std::string> Warnings() const override { return {}; }
+
+ protected:
+  CountedWriter(const std::string& path, const MeshShape& shape, bool force);
+
+  virtual void WriteVertices(std::span<const double> xyz) = 0;
+  virtual void WriteFaces(std::span<const Triangle> faces) = 0;
+  /// Completes the file but for the commit.
+  virtual void Finish() = 0;
+
+  const std::string& path() const { return path_; }
+  const MeshShape& shape() const { return shape_; }
+  AtomicFile& file() { return *file_; }
+
+ private:
+  [[noreturn]] void ThrowInternal(const char* reason) const;
+
+  std::string path_;
+  MeshShape shape_;
+  uint64_t vertices_left_;
+  uint64_t faces_left_;
+  std::unique_ptr<AtomicFile> file_;
+};
+
+/// All throw Failure.
+std::unique_ptr<MeshWriter> MakePlyWriter(const std::string& path, const MeshShape& shape,
+                                          bool force);
+std::unique_ptr<MeshWriter> MakeStlWriter(const std::string& path, const MeshShape& shape,
+                                          bool force);
+std::unique_ptr<MeshWriter> MakeObjWriter(const std::string& path, const MeshShape& shape,
+                                          bool force);
+std::unique_ptr<MeshWriter> MakeOffWriter(const std::string& path, const MeshShape& shape,
+                                          bool force);
+
+}  // namespace folprom::io

@@ -1,0 +1,89 @@
+#include "io/formats/mesh_writer.h"
+
+#include "io/formats/counted_writer.h"
+
+namespace folprom::io {
+namespace {
+
+template <class Work>
+Result<void> Guarded(Work work) {
+  try {
+    work();
+    return {};
+  } catch (const Failure& failure) {
+    return failure.error();
+  }
+}
+
+}  // namespace
+
+Result<MeshFormat> OutputFormat(const std::string& path) {
+  if (const std::optional<MeshFormat> format = FormatByEnding(path)) return *format;
+  return Error{ErrorKind::kUsage,
+               path + ": the ending tells no format (known: .ply, .obj, .stl, .off)"};
+}
+
+Result<std::unique_ptr<MeshWriter>> MeshWriter::Create(const std::string& path,
+                                                       const MeshShape& shape, bool force) {
+  try {
+    switch (OutputFormat(path).value()) {
+      case MeshFormat::kObj:
+        return MakeObjWriter(path, shape, force);
+      case MeshFormat::kStl:
+        return MakeStlWriter(path, shape, force);
+      case MeshFormat::kOff:
+        return MakeOffWriter(path, shape, force);
+      case MeshFormat::kPly:
+        break;
+    }
+    return MakePlyWriter(path, shape, force);
+  } catch (const Failure& failure) {
+    return failure.error();
+  }
+}
+
+CountedWriter::CountedWriter(const std::string& path, const MeshShape& shape, bool force)
+    : path_(path),
+      shape_(shape),
+      vertices_left_(shape.vertices),
+      faces_left_(shape.faces),
+      file_(AtomicFile::Create(path, force).value()) {}
+
+Result<void> CountedWriter::AppendVertices(std::span<const double> xyz) {
+  return Guarded([&] {
+    if (xyz.size() % 3 != 0 || xyz.size() / 3 > vertices_left_) {
+      ThrowInternal("more vertices are written than were announced");
+    }
+    vertices_left_ -= xyz.size() / 3;
+    WriteVertices(xyz);
+  });
+}
+
+Result<void> CountedWriter::AppendFaces(std::span<const Triangle> faces) {
+  return Guarded([&] {
+    if (faces.size() > faces_left_) ThrowInternal("more faces are written than were announced");
+    faces_left_ -= faces.size();
+    for (const Triangle& face : faces) {
+      for (const uint64_t index : face) {
+        if (index >= shape_.vertices) ThrowInternal("a face has an index beyond the vertices");
+      }
+    }
+    WriteFaces(faces);
+  });
+}
+
+Result<void> CountedWriter::Commit() {
+  return Guarded([&] {
+    if (vertices_left_ != 0 || faces_left_ != 0) {
+      ThrowInternal("fewer vertices or faces are written than were announced");
+    }
+    Finish();
+    file_->Commit().value();
+  });
+}
+
+void CountedWriter::ThrowInternal(const char* reason) const {
+  throw Failure(ErrorKind::kInternal, path_ + ": " + reason);
+}
+
+}  // namespace folprom::io

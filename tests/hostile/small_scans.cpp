@@ -1,0 +1,63 @@
+#include "tests/hostile/small_scans.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace folprom::hostile {
+namespace {
+
+template <class T>
+void Put(T value, std::string* bytes, bool big_endian = false) {
+  std::string piece(sizeof value, '\0');
+  std::memcpy(piece.data(), &value, sizeof value);
+  if (big_endian) std::reverse(piece.begin(), piece.end());
+  *bytes += piece;
+}
+
+std::string BinaryStl(const std::string& title) {
+  std::string bytes = title + std::string(80 - title.size(), ' ');
+  Put(uint32_t{2}, &bytes);
+  for (int f = 0; f < 2; ++f) {
+    for (int i = 0; i < 12; ++i) Put(static_cast<float>(f * i), &bytes);
+    Put(uint16_t{0}, &bytes);
+  }
+  return bytes;
+}
+
+/// As Geomview specifies it, or as other programs write it.
+std::string BinaryOff(bool geomview) {
+  std::string bytes = "OFF BINARY\n";
+  const auto count = [&](uint32_t value) { Put(value, &bytes, geomview); };
+  for (const uint32_t value : {4, 2, 0}) count(value);
+  for (int i = 0; i < 12; ++i) Put(static_cast<float>(i * i), &bytes, geomview);
+  for (const uint32_t corners : {3, 4}) {
+    count(corners);
+    for (uint32_t i = 0; i < corners; ++i) count(i);
+    if (geomview) count(0);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<SmallScan> SmallScans() {
+  return {
+      {"obj.obj",
+       "mtllib a.mtl\nv 0 0 0\nv 1 0 0.5\nvt 0 1\nvn 0 0 1\nusemtl red\n"
+       "f 1/1/1 2//1 \\\n-1/1\nv 1e1 -1 0\ng b\nf -3 1 2 3\nl 1 2\n"},
+      {"text.stl",
+       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1.5 0\n"
+       "endloop\nendfacet\nendsolid a\nsolid b\nendsolid b\n"},
+      {"binary.stl", BinaryStl("by a test"), false},
+      {"titled.stl", BinaryStl("solid by a test"), false},
+      {"off.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1e1 0.5\n4 0 1 2 3\n3 0 1 2 255 0 0\n1 2\n"},
+      {"coff.off",
+       "CNOFF # a\n3 1 0\n0 0 0 0 0 1 9 9 9 9\n1 0 0 0 0 1 9 9 9 9\n"
+       "0 1 0 0 0 1 9 9 9 9\n3 0 1 2\n"},
+      {"geomview.off", BinaryOff(true), false},
+      {"binary.off", BinaryOff(false), false},
+  };
+}
+
+}  // namespace folprom::hostile

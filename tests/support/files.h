@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
@@ -10,6 +11,7 @@
 namespace folprom::support {
 
 std::vector<uint8_t> FileBytes(const std::string& path);
+void WriteBytes(const std::string& path, std::string_view bytes);
 
 /// A file of the shared scans, such as "scans/igea.ply"; empty where it is missing.
 std::string SharedFile(const std::string& name);

@@ -1,9 +1,10 @@
 #include "io/formats/mesh_format.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <utility>
+
+#include "io/formats/text_cursor.h"
 
 namespace folprom::io {
 
@@ -13,12 +14,9 @@ std::optional<MeshFormat> FormatByEnding(const std::string& path) {
       {".obj", MeshFormat::kObj},
       {".stl", MeshFormat::kStl},
       {".off", MeshFormat::kOff}};
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  const std::string ending = std::filesystem::path(path).extension().string();
   for (const auto& [known, format] : kEndings) {
-    if (known == ending) return format;
+    if (EqualsIgnoringCase(ending, known)) return format;
   }
   return std::nullopt;
 }

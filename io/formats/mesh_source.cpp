@@ -23,8 +23,6 @@ bool LooksBinary(const MappedFile& file) {
   return std::ranges::find(head, uint8_t{0}) != head.end();
 }
 
-bool IsSolid(std::string_view word) { return word == "solid" || word == "SOLID"; }
-
 std::unique_ptr<MeshSource> OpenStl(MappedFile file) {
   const bool is_text = !HasBinaryStlSize(file.bytes()) && !LooksBinary(file);
   return is_text ? OpenTextStlSource(std::move(file)) : OpenBinaryStlSource(std::move(file));
@@ -53,7 +51,7 @@ std::unique_ptr<MeshSource> OpenMapped(MappedFile file) {
   TextCursor cursor(file, {0, 1});
   const std::string_view word = cursor.NextWordLine() ? cursor.Word() : std::string_view();
   if (IsOffKeyword(word)) return OpenOffSource(std::move(file));
-  if (IsSolid(word)) return OpenStl(std::move(file));
+  if (EqualsIgnoringCase(word, "solid")) return OpenStl(std::move(file));
   // The keywords of OBJ are words of any text: a damaged file of another format may begin so.
   if (IsObjKeyword(word) && !FormatByEnding(file.path())) return OpenObjSource(std::move(file));
   return OpenByEnding(std::move(file));

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,12 +12,6 @@
 namespace folprom::io {
 namespace {
 
-bool IsKeyword(std::string_view word, std::string_view keyword) {
-  return std::ranges::equal(word, keyword, {}, [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-}
-
 /// Steps through "solid ... facet ... endfacet ... endsolid", line breaks being blanks.
 class StlTextParser {
  public:
@@ -31,11 +24,11 @@ class StlTextParser {
     while (cursor_.NextWordLine()) {
       const FilePosition begin = cursor_.position();
       const std::string_view word = cursor_.Word();
-      if (inside && IsKeyword(word, "facet")) {
+      if (inside && EqualsIgnoringCase(word, "facet")) {
         facet_ = begin;
         return true;
       }
-      if (!IsKeyword(word, inside ? "endsolid" : "solid")) {
+      if (!EqualsIgnoringCase(word, inside ? "endsolid" : "solid")) {
         cursor_.FailWord(word, inside ? "neither facet nor endsolid" : "not solid");
       }
       inside = !inside;
@@ -71,7 +64,7 @@ class StlTextParser {
   }
   void Expect(const char* keyword) {
     const std::string_view word = Word();
-    if (!IsKeyword(word, keyword)) {
+    if (!EqualsIgnoringCase(word, keyword)) {
       cursor_.FailWord(word, (std::string("in the place of ") + keyword).c_str());
     }
   }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "folprom/float_bits.h"
 #include "io/files/scratch_file.h"
@@ -17,7 +18,7 @@ namespace {
 
 constexpr size_t kHeaderBytes = 84;
 constexpr size_t kFacetBytes = 50;
-constexpr uint64_t kFacetsBetweenDrops = 1 << 18;
+constexpr uint64_t kFacetsBetweenDrops = 1 << 16;
 constexpr char kTitle[] = "binary STL by folprom";  // must not begin with "solid"
 
 using FloatBits = std::array<uint32_t, 3>;  // of a position
@@ -43,6 +44,39 @@ std::array<float, 3> Normal(const FloatBits& a, const FloatBits& b, const FloatB
   return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length),
           static_cast<float>(n[2] / length)};
 }
+
+/// Positions that are read in any order, with at most about 32 MiB of them resident.
+class PositionMap {
+ public:
+  explicit PositionMap(const ScratchFile& file)
+      : map_(file.Map()), touched_((map_.bytes().size() >> kRegionBits) + 1) {}
+
+  FloatBits At(uint64_t vertex) {
+    const uint64_t offset = vertex * sizeof(FloatBits);
+    FloatBits bits;
+    std::memcpy(bits.data(), map_.bytes().data() + offset, sizeof bits);
+    if (!touched_[offset >> kRegionBits]) Touch(offset >> kRegionBits);
+    return bits;
+  }
+
+ private:
+  // A touched page brings up to 64 KiB around it along.
+  static constexpr int kRegionBits = 16;
+  static constexpr uint64_t kMostRegions = 512;
+
+  void Touch(uint64_t region) {
+    if (++regions_ > kMostRegions) {
+      map_.DropResident();
+      touched_.assign(touched_.size(), false);
+      regions_ = 1;
+    }
+    touched_[region] = true;
+  }
+
+  MappedFile map_;
+  std::vector<bool> touched_;
+  uint64_t regions_ = 0;
+};
 
 class StlWriter final : public CountedWriter {
  public:
@@ -100,16 +134,13 @@ class StlWriter final : public CountedWriter {
                 kHeaderBytes - sizeof(uint32_t) - sizeof kTitle + 1, uint8_t{0});
     StoreLittleEndian(static_cast<uint32_t>(shape().faces), out.Extend(sizeof(uint32_t)));
 
-    const MappedFile positions = position_file_.Map(), faces = face_file_.Map();
-    const auto* position = reinterpret_cast<const FloatBits*>(positions.bytes().data());
+    PositionMap positions(position_file_);
+    const MappedFile faces = face_file_.Map();
     const auto* corners = reinterpret_cast<const Corners*>(faces.bytes().data());
     for (uint64_t f = 0; f < shape().faces; ++f) {
       const auto& [a, b, c] = corners[f];
-      WriteFacet(position[a], position[b], position[c], out.Extend(kFacetBytes));
-      if (f % kFacetsBetweenDrops == kFacetsBetweenDrops - 1) {
-        positions.DropResident();
-        faces.DropResident();
-      }
+      WriteFacet(positions.At(a), positions.At(b), positions.At(c), out.Extend(kFacetBytes));
+      if (f % kFacetsBetweenDrops == kFacetsBetweenDrops - 1) faces.DropResident();
     }
     out.Flush();
   }

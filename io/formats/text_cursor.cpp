@@ -1,9 +1,17 @@
 #include "io/formats/text_cursor.h"
 
+#include <algorithm>
+
 #include "folprom/float_bits.h"
 #include "io/formats/text_number.h"
 
 namespace folprom::io {
+
+bool EqualsIgnoringCase(std::string_view word, std::string_view small) {
+  return std::ranges::equal(word, small, {}, [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+}
 
 TextCursor::TextCursor(const MappedFile& file, FilePosition position, Lines lines)
     : path_(&file.path()),
@@ -11,7 +19,12 @@ TextCursor::TextCursor(const MappedFile& file, FilePosition position, Lines line
       at_(begin_ + position.offset),
       end_(begin_ + file.bytes().size()),
       line_(position.line),
-      joined_(lines == Lines::kJoined) {}
+      joined_(lines == Lines::kJoined) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (at_ == begin_ && std::string_view(begin_, file.bytes().size()).starts_with(kByteOrderMark)) {
+    at_ += kByteOrderMark.size();
+  }
+}
 
 bool TextCursor::NextWordLine() {
   while (at_ < end_) {

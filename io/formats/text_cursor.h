@@ -11,8 +11,12 @@
 
 namespace folprom::io {
 
+/// Is the word, of ASCII letters in any case, `small`, which is in small letters.
+bool EqualsIgnoringCase(std::string_view word, std::string_view small);
+
 /// Lines end in LF, CR LF or CR; the last may end in nothing. A word that begins with '#' begins a
-/// comment. Faults are Failure kInput and name the file and the line.
+/// comment; a byte order mark at the start of the file is skipped. Faults are Failure kInput and
+/// name the file and the line.
 class TextCursor {
  public:
   /// Whether a backslash at the end of a line joins the next one to it.

@@ -35,6 +35,15 @@ TEST(Format, IsKnownByContentWhateverTheEnding) {
   }
 }
 
+TEST(Format, IsKnownBehindAByteOrderMarkAndInLargeLetters) {
+  for (const std::string text :
+       {std::string(kObj), std::string(kOff), "S" + std::string(kStl + 1)}) {
+    const std::vector<double> expected = MeshOf(text, "a").value().xyz;
+    EXPECT_EQ(expected.size(), 9u);
+    EXPECT_EQ(MeshOf("\xef\xbb\xbf" + text, "a").value().xyz, expected);
+  }
+}
+
 TEST(Format, IsTakenFromTheEndingWhereTheContentLeavesItOpen) {
   const std::string counts = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   EXPECT_EQ(MeshOf(counts, "a.OFF").value().xyz.size(), 9u);

@@ -1,6 +1,7 @@
 #include "io/formats/off_header.h"
 
 #include "io/formats/text_cursor.h"
+#include "io/formats/text_number.h"
 
 namespace folprom::io {
 namespace {
@@ -38,7 +39,10 @@ void ParseCounts(TextCursor& cursor, OffHeader& header) {
   if (!cursor.NextWordLine()) cursor.Fail("the file ends before the number of vertices");
   header.vertices = Count(cursor, "number of vertices");
   header.faces = Count(cursor, "number of faces");
-  if (!cursor.Word().empty() && !cursor.Word().empty()) cursor.Fail("more than three counts");
+  const std::string_view edges = cursor.Word();
+  int64_t ignored = 0;
+  if (!edges.empty() && !ParseInteger(edges, &ignored)) cursor.FailWord(edges, "not an integer");
+  if (!cursor.Word().empty()) cursor.Fail("more than three counts");
   header.body = cursor.position();
 }
 

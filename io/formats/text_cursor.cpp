@@ -42,9 +42,9 @@ bool TextCursor::NextWordLine() {
 }
 
 void TextCursor::SkipLine() {
-  while (at_ < end_ && !IsNewline(*at_)) {
-    if (!TakeJoint()) ++at_;
+  while (!Word().empty()) {
   }
+  SkipSingleLine();  // a comment, in which a backslash means nothing
 }
 
 void TextCursor::SkipSingleLine() {

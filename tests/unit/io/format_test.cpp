@@ -36,7 +36,7 @@ TEST(Format, IsKnownByContentWhateverTheEnding) {
 }
 
 TEST(Format, IsKnownBehindAByteOrderMarkAndInLargeLetters) {
-  for (const std::string text :
+  for (const std::string& text :
        {std::string(kObj), std::string(kOff), "S" + std::string(kStl + 1)}) {
     const std::vector<double> expected = MeshOf(text, "a").value().xyz;
     EXPECT_EQ(expected.size(), 9u);

@@ -50,6 +50,15 @@ TEST(Obj, JoinsLinesAtABackslash) {
   ExpectFault(std::string(kSquare) + "f 1 2 \\\n9\n", "line 6: the vertex index 9 is beyond");
 }
 
+TEST(Obj, JoinsNoLineAtABackslashInAComment) {
+  const Mesh mesh = MeshOf(
+                        "v 0 0 0 # c:\\\nv 1 0 0\nv 1 1 0 # c:\\\nf 1 2 3 # c:\\\n"
+                        "v 0 1 0 # c:\\\nf 1 3 4 # c:\\\nl 1 2 # c:\\\nf -1 -2 -3\n",
+                        "a.obj")
+                        .value();
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}}));
+}
+
 TEST(Obj, TakesAnyLineEndsBlanksAndComments) {
   for (const std::string end : {"\n", "\r\n", "\r", " \t\n\n \n", " # f 9 9 9\n"}) {
     std::string text = "# head\n";

@@ -94,6 +94,7 @@ TEST(TextOff, NamesTheLineOfAFault) {
   ExpectFault("OFF\n", "line 2: the file ends before the number of vertices");
   ExpectFault("OFF\n3\n", "line 2: the line ends before number of faces");
   ExpectFault("OFF\n-3 1 0\n", "line 2: the number of vertices is negative");
+  ExpectFault("OFF\n3 1 x\n", "line 2: \"x\" is not an integer");
   ExpectFault("OFF\n3 1 0 0\n", "line 2: more than three counts");
   ExpectFault("OFF\n999 1 0\n0 0 0\n", "line 2: 999 vertices are announced");
   ExpectFault("OFF\n1 18446744073709551615 0\n0 0 0\n", "line 2: \"18446744073709551615\" is not");

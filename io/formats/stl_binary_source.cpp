@@ -85,7 +85,7 @@ class BinaryStlSource final : public SoupSource {
 }  // namespace
 
 bool HasBinaryStlSize(std::span<const uint8_t> bytes) {
-  return bytes.size() >= kHeaderBytes &&
+  return bytes.size() > kHeaderBytes &&
          bytes.size() == kHeaderBytes + FacetCount(bytes) * kFacetBytes;
 }
 

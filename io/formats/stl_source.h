@@ -10,8 +10,8 @@
 
 namespace folprom::io {
 
-/// Does the size agree with the number of facets in the place where a binary file has it. A text
-/// file has characters there, and would have to be 27 GB large.
+/// Is there a facet, and does the size agree with the number of them where a binary file has it. A
+/// text file has characters there, and would have to be 27 GB large.
 bool HasBinaryStlSize(std::span<const uint8_t> bytes);
 
 /// Throws Failure kInput where the size does not agree with the number of facets, but for less than

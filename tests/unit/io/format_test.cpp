@@ -53,8 +53,9 @@ TEST(Format, IsTakenFromTheEndingWhereTheContentLeavesItOpen) {
 }
 
 TEST(Format, OfAnyOtherKindIsRefusedWithAListOfTheKnownOnes) {
-  for (const std::string& bytes : {std::string("glTF"), std::string("PK\3\4\0\0", 6),
-                                   std::string(100, '\0'), std::string("# only a comment\n")}) {
+  for (const std::string& bytes :
+       {std::string("glTF"), std::string("PK\3\4\0\0", 6), std::string(100, '\0'),
+        std::string(84, '\0'), std::string("# only a comment\n")}) {
     for (const char* name : {"a.glb", "a", "a.ply"}) {
       EXPECT_NE(
           InputErrorOf(bytes, name).find("unsupported format (known formats: PLY, OBJ, STL, OFF)"),

@@ -152,4 +152,15 @@ Result<std::unique_ptr<AtomicFile>> AtomicFile::Create(const std::string& path, 
   }
 }
 
+Result<void> WriteWholeFile(const std::string& path, std::string_view text, bool force) {
+  try {
+    const auto file = std::move(AtomicFile::Create(path, force).value());
+    file->Append({reinterpret_cast<const uint8_t*>(text.data()), text.size()}).value();
+    file->Commit().value();
+    return {};
+  } catch (const Failure& failure) {
+    return failure.error();
+  }
+}
+
 }  // namespace folprom::io

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "folprom/result.h"
 #include "io/files/scratch_file.h"
@@ -30,5 +31,8 @@ class AtomicFile {
   virtual const std::string& folder() const = 0;
   virtual Result<void> Commit() = 0;
 };
+
+/// A small file at once.
+Result<void> WriteWholeFile(const std::string& path, std::string_view text, bool force);
 
 }  // namespace folprom::io

@@ -64,7 +64,7 @@ class Pipeline {
   void DecodeSubtrees() {
     uint64_t vertices = 0;
     for (uint32_t s : needed_) vertices += table_.subtrees[s].vertices;
-    progress_.StartStage("decode", vertices);
+    progress_.StartStage("decode", vertices, "vertices");
     size_t window =
         WindowOf(table_, needed_, parameters_.has_rests(), memory_bytes_, runner_.threads());
     std::vector<DecodedPart> parts(needed_.size());

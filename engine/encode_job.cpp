@@ -191,7 +191,7 @@ void EncodeJob::EncodeSubtrees(bool keep_order) {
     first_vertex.push_back(first_vertex.back() + scan_->summary(s).vertices);
   }
   if (keep_order) order_.emplace(*spill_, "order");
-  progress_.StartStage("encode", source_->vertex_count());
+  progress_.StartStage("encode", source_->vertex_count(), "vertices");
   parallel::MemoryBudget budget(WorkingBytes(options_.memory_bytes) * 3 / 4);
   runner_.ForEach(order.size(), [&](size_t i) {
     size_t subtree = order[i];

@@ -16,9 +16,11 @@ struct Cancelled : std::exception {
 /// (Cancel is safe inside a signal handler).
 class Progress {
  public:
-  void StartStage(const char* name, uint64_t total) {
+  /// Both texts are string literals. `unit` names what is counted where a reader may want its rate.
+  void StartStage(const char* name, uint64_t total, const char* unit = "") {
     done_.store(0);
     total_.store(total);
+    unit_.store(unit);
     stage_.store(name);
   }
   /// Adds `units` of work done. Throws Cancelled when a stop was asked for.
@@ -32,11 +34,13 @@ class Progress {
   void Cancel() noexcept { cancelled_.store(true); }
 
   const char* stage() const { return stage_.load(); }
+  const char* unit() const { return unit_.load(); }
   uint64_t done() const { return done_.load(); }
   uint64_t total() const { return total_.load(); }
 
  private:
-  std::atomic<const char*> stage_{""};  // string literals only
+  std::atomic<const char*> stage_{""};
+  std::atomic<const char*> unit_{""};
   std::atomic<uint64_t> done_{0};
   std::atomic<uint64_t> total_{0};
   std::atomic<bool> cancelled_{false};

@@ -87,6 +87,7 @@ Verb AddCompare(CLI::App& program) {
                  "Points on the area of each mesh; else ten per face, 500k .. 10M");
   AddThreadFlags(verb, &flags->work);
   AddCommonFlags(verb, &flags->common);
+  AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);
   return {verb, [flags] { return Run(*flags); }};
 }

@@ -122,6 +122,7 @@ Verb AddDecode(CLI::App& program) {
       ->type_name("x0,y0,z0,x1,y1,z1");
   AddWorkFlags(verb, &flags->work);
   AddCommonFlags(verb, &flags->common);
+  AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);
   return {verb, [flags] { return Run(*flags); }};
 }

@@ -161,6 +161,7 @@ Verb AddEncode(CLI::App& program) {
                  "Print the settings in force as a config file, and stop");
   AddWorkFlags(verb, &flags->work);
   AddCommonFlags(verb, &flags->common);
+  AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);
   return {verb, [flags] { return Run(*flags); }};
 }

@@ -124,6 +124,14 @@ void AddCommonFlags(CLI::App* verb, CommonFlags* flags) {
   verb->add_flag("-v,--verbose", flags->verbose, "Say more on standard error")->excludes(quiet);
 }
 
+void AddProgressFlag(CLI::App* verb, CommonFlags* flags) {
+  verb->add_option_function<std::string>(
+          "--progress", [flags](const std::string& mode) { flags->progress_json = mode == "json"; },
+          "text, or json: one object a line on standard error, also with -q and --json")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->type_name("MODE");
+}
+
 CLI::Option* AddBytesOption(CLI::App* verb, const std::string& name, std::optional<uint64_t>* value,
                             const std::string& help) {
   return verb

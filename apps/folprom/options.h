@@ -31,6 +31,7 @@ struct CommonFlags {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  bool progress_json = false;  ///< progress as JSON lines on standard error
 };
 
 struct WorkFlags {
@@ -42,6 +43,8 @@ struct WorkFlags {
 
 /// --json -q -v
 void AddCommonFlags(CLI::App* verb, CommonFlags* flags);
+/// --progress, for verbs that work for a while.
+void AddProgressFlag(CLI::App* verb, CommonFlags* flags);
 /// -T --tmp, for verbs that hold whole meshes and so keep no memory limit.
 void AddThreadFlags(CLI::App* verb, WorkFlags* flags);
 /// -T --tmp -M

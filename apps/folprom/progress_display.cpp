@@ -4,12 +4,14 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+
+#include "apps/folprom/progress_text.h"
+#include "apps/folprom/session.h"
 
 namespace folprom::cli {
 namespace {
@@ -17,45 +19,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPeriod = std::chrono::milliseconds(200);
+constexpr auto kJsonPeriod = std::chrono::seconds(1);
 constexpr auto kPlainPeriod = std::chrono::seconds(10);
-
-double SecondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-std::string RateText(double per_second) {
-  if (per_second >= 1e6) return fmt::format("{:.1f} M/s", per_second / 1e6);
-  if (per_second >= 1e3) return fmt::format("{:.1f} k/s", per_second / 1e3);
-  return fmt::format("{:.1f} /s", per_second);
-}
-
-std::string TimeText(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
-  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
-  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
-// One reading of the progress.
-struct Reading {
-  std::string stage;
-  double done = 0;
-  double total = 0;
-};
-
-std::string LineText(const Reading& reading, double seconds) {
-  std::string line = reading.stage;
-  if (reading.total > 0) {
-    line += fmt::format("  {:.0f} %", 100 * std::min(1.0, reading.done / reading.total));
-  }
-  if (reading.done > 0 && seconds > 0) {
-    const double rate = reading.done / seconds;
-    line += "  " + RateText(rate);
-    if (reading.done < reading.total) {
-      line += "  " + TimeText((reading.total - reading.done) / rate) + " left";
-    }
-  }
-  return line;
-}
 
 }  // namespace
 
@@ -64,8 +29,8 @@ bool ColourWanted() {
   return isatty(STDERR_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
 }
 
-ProgressDisplay::ProgressDisplay(const parallel::Progress& progress, bool verbose)
-    : progress_(progress), verbose_(verbose), thread_([this] { Run(); }) {}
+ProgressDisplay::ProgressDisplay(const parallel::Progress& progress, bool verbose, bool json)
+    : progress_(progress), verbose_(verbose), json_(json), thread_([this] { Run(); }) {}
 
 ProgressDisplay::~ProgressDisplay() {
   {
@@ -76,12 +41,44 @@ ProgressDisplay::~ProgressDisplay() {
   thread_.join();
 }
 
+bool ProgressDisplay::Wait(std::unique_lock<std::mutex>& lock) {
+  return !wake_.wait_for(lock, kPeriod, [this] { return stop_; });
+}
+
 void ProgressDisplay::Run() {
+  if (json_) {
+    RunJson();
+  } else {
+    RunText();
+  }
+}
+
+void ProgressDisplay::RunJson() {
+  StageClock clock;
+  std::string stage;
+  Clock::time_point last_line = Clock::now();
+  const auto print = [](const ProgressReading& reading) {
+    fmt::print(stderr, "{}\n", ProgressJson(reading).dump());
+    std::fflush(stderr);
+  };
+  std::unique_lock lock(mutex_);
+  while (Wait(lock)) {
+    const ProgressReading reading = clock.Read(progress_, ResidentBytes());
+    if (reading.stage.empty()) continue;
+    if (reading.stage == stage && Clock::now() - last_line < kJsonPeriod) continue;
+    stage = reading.stage;
+    last_line = Clock::now();
+    print(reading);
+  }
+  print(clock.Read(progress_, ResidentBytes()));
+}
+
+void ProgressDisplay::RunText() {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const std::string_view colour = ColourWanted() ? "\033[36m" : "";
   const std::string_view plain = ColourWanted() ? "\033[0m" : "";
+  StageClock clock;
   std::string stage;
-  Clock::time_point stage_begin = Clock::now();
   Clock::time_point last_line = Clock::now();
   bool line_shown = false;
   const auto clear_line = [&] {
@@ -90,17 +87,15 @@ void ProgressDisplay::Run() {
   };
 
   std::unique_lock lock(mutex_);
-  while (!wake_.wait_for(lock, kPeriod, [this] { return stop_; })) {
-    const Reading reading{progress_.stage(), static_cast<double>(progress_.done()),
-                          static_cast<double>(progress_.total())};
+  while (Wait(lock)) {
+    const ProgressReading reading = clock.Read(progress_, ResidentBytes());
     if (reading.stage.empty()) continue;
     if (reading.stage != stage) {
       clear_line();
       stage = reading.stage;
-      stage_begin = Clock::now();
       if (verbose_) spdlog::debug("stage: {}", stage);
     }
-    const std::string line = LineText(reading, SecondsSince(stage_begin));
+    const std::string line = ProgressText(reading);
     if (terminal) {
       fmt::print(stderr, "\r{}{}{}\033[K", colour, line, plain);
       line_shown = true;

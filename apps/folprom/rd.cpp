@@ -98,6 +98,7 @@ Verb AddRd(CLI::App& program) {
   verb->add_flag("-f,--force", flags->force, "May replace the outputs");
   AddThreadFlags(verb, &flags->work);
   AddCommonFlags(verb, &flags->common);
+  AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);
   return {verb, [flags] { return Run(*flags); }};
 }

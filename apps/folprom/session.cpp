@@ -4,8 +4,10 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
 
 namespace folprom::cli {
 namespace {
@@ -49,8 +51,8 @@ Session::Session(const CommonFlags& flags) {
   SetUpLog(flags);
   active_progress = &progress_;
   HandleSignals();
-  if (!flags.quiet && !flags.json) {
-    display_ = std::make_unique<ProgressDisplay>(progress_, flags.verbose);
+  if (flags.progress_json || (!flags.quiet && !flags.json)) {
+    display_ = std::make_unique<ProgressDisplay>(progress_, flags.verbose, flags.progress_json);
   }
 }
 
@@ -58,6 +60,15 @@ Session::~Session() { active_progress = nullptr; }
 
 double Session::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+uint64_t ResidentBytes() {
+  unsigned long long pages_in_all = 0, resident_pages = 0;
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr) return 0;
+  const int read = std::fscanf(file, "%llu %llu", &pages_in_all, &resident_pages);
+  std::fclose(file);
+  return read == 2 ? resident_pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
 uint64_t PeakResidentBytes() {

@@ -34,6 +34,8 @@ class Session {
   std::unique_ptr<ProgressDisplay> display_;
 };
 
+/// Resident size of this process now, bytes; 0 where the system does not tell.
+uint64_t ResidentBytes();
 /// Largest resident size of this process so far, bytes.
 uint64_t PeakResidentBytes();
 

@@ -102,6 +102,7 @@ Verb AddSynth(CLI::App& program) {
       ->required();
   verb->add_flag("-f,--force", flags->force, "May replace the output");
   AddCommonFlags(verb, &flags->common);
+  AddProgressFlag(verb, &flags->common);
   return {verb, [flags] { return Run(*flags); }};
 }
 

@@ -53,7 +53,7 @@ std::array<uint64_t, 2> MakePart(const RowSource& part, uint64_t first_vertex, S
 
 SynthSurface::SynthSurface(SynthKind kind, uint64_t vertices, uint64_t seed,
                            parallel::Progress& progress) {
-  progress.StartStage("count", vertices);
+  progress.StartStage("count", vertices, "vertices");
   if (kind == SynthKind::kScan) {
     PlanScan(vertices, seed, progress);
   } else {
@@ -100,7 +100,7 @@ void SynthSurface::PlanRange(uint64_t vertices, uint64_t seed, parallel::Progres
 }
 
 void SynthSurface::Generate(SurfaceSink& sink, parallel::Progress& progress) const {
-  progress.StartStage("write", vertices_);
+  progress.StartStage("write", vertices_, "vertices");
   uint64_t first_vertex = 0;
   for (const auto& part : parts_) {
     first_vertex += MakePart(*part, first_vertex, &sink, progress)[0];

@@ -75,6 +75,7 @@ Verb AddVerify(CLI::App& program) {
       ->type_name("SCAN");
   AddWorkFlags(verb, &flags->work);
   AddCommonFlags(verb, &flags->common);
+  AddProgressFlag(verb, &flags->common);
   return {verb, [flags] { return Run(*flags); }};
 }
 

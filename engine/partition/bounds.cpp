@@ -52,7 +52,7 @@ void Extend(Bounds* box, const Bounds& other) {
 
 Bounds MeasureBounds(const io::MeshSource& source, parallel::Runner& runner,
                      parallel::Progress& progress) {
-  progress.StartStage("bounds", source.vertex_count());
+  progress.StartStage("bounds", source.vertex_count(), "vertices");
   std::mutex mutex;
   Bounds bounds;
   const auto extend = [&](size_t block, const std::vector<double>& xyz) {

@@ -41,7 +41,7 @@ void Add(const CoordinateCensus& part, CoordinateCensus* census) {
 
 CoordinateCensus TakeCensus(const io::MeshSource& source, bool is_float, parallel::Runner& runner,
                             parallel::Progress& progress) {
-  progress.StartStage("bounds", source.vertex_count());
+  progress.StartStage("bounds", source.vertex_count(), "vertices");
   std::mutex mutex;
   CoordinateCensus census;
   census.bounds = Nothing();
@@ -65,7 +65,7 @@ CoordinateCensus TakeCensus(const io::MeshSource& source, bool is_float, paralle
 
 bool HasRests(const io::MeshSource& source, const Lattice& lattice, parallel::Runner& runner,
               parallel::Progress& progress) {
-  progress.StartStage("lattice", source.vertex_count());
+  progress.StartStage("lattice", source.vertex_count(), "vertices");
   std::atomic<bool> found = false;
   const auto look = [&](size_t, const std::vector<double>& xyz) {
     for (size_t i = 0; i < xyz.size() && !found; ++i) {

@@ -32,6 +32,7 @@ class Progress {
     if (cancelled_.load(std::memory_order_relaxed)) throw Cancelled();
   }
   void Cancel() noexcept { cancelled_.store(true); }
+  bool cancelled() const { return cancelled_.load(); }
 
   const char* stage() const { return stage_.load(); }
   const char* unit() const { return unit_.load(); }

@@ -62,9 +62,15 @@ double Session::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
-uint64_t ResidentBytes() {
+void CancelOnSignals(parallel::Progress* progress) {
+  active_progress = progress;
+  HandleSignals();
+}
+
+uint64_t ResidentBytes(pid_t process) {
   unsigned long long pages_in_all = 0, resident_pages = 0;
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  std::FILE* file = std::fopen(
+      ("/proc/" + (process == 0 ? "self" : std::to_string(process)) + "/statm").c_str(), "r");
   if (file == nullptr) return 0;
   const int read = std::fscanf(file, "%llu %llu", &pages_in_all, &resident_pages);
   std::fclose(file);

@@ -1,6 +1,8 @@
 // What surrounds the work of every verb: clock, log, signals, progress.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -34,8 +36,11 @@ class Session {
   std::unique_ptr<ProgressDisplay> display_;
 };
 
-/// Resident size of this process now, bytes; 0 where the system does not tell.
-uint64_t ResidentBytes();
+/// From now on the signals of a Session cancel this progress: in the child of a fork.
+void CancelOnSignals(parallel::Progress* progress);
+
+/// Resident size of a process now, 0 for this one, bytes; 0 where the system does not tell.
+uint64_t ResidentBytes(pid_t process = 0);
 /// Largest resident size of this process so far, bytes.
 uint64_t PeakResidentBytes();
 

@@ -24,6 +24,7 @@ constexpr const char* kDescription =
     "  folprom verify scan.folp --against scan.ply\n"
     "  folprom compare scan.ply preview.ply\n"
     "  folprom rd scan.ply -o curve\n"
+    "  folprom batch scans.toml\n"
     "  folprom synth --vertices 10M -o scan.ply";
 
 constexpr const char* kFooter =
@@ -72,7 +73,7 @@ int Run(int argc, char** argv) {
   program.require_subcommand(0, 1);
   const Verb verbs[] = {AddEncode(program), AddDecode(program),  AddInfo(program),
                         AddVerify(program), AddCompare(program), AddRd(program),
-                        AddSynth(program)};
+                        AddBatch(program),  AddSynth(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -83,8 +84,8 @@ int Run(int argc, char** argv) {
   for (const Verb& verb : verbs) {
     if (verb.parser->parsed()) return verb.run();
   }
-  return Report(
-      {ErrorKind::kUsage, "no verb given: encode, decode, info, verify, compare, rd or synth"});
+  return Report({ErrorKind::kUsage,
+                 "no verb given: encode, decode, info, verify, compare, rd, batch or synth"});
 }
 
 }  // namespace

@@ -23,5 +23,6 @@ Verb AddVerify(CLI::App& program);
 Verb AddCompare(CLI::App& program);
 Verb AddRd(CLI::App& program);
 Verb AddSynth(CLI::App& program);
+Verb AddBatch(CLI::App& program);
 
 }  // namespace folprom::cli

@@ -7,7 +7,7 @@ namespace {
 
 // Measured on scans of 6,000 to 1,500,000 vertices; rounded up.
 constexpr uint64_t kProgramBytes = uint64_t{48} << 20;
-constexpr uint64_t kEncodeBytesPerVertex = 640;  // of the subtrees that are in work
+constexpr uint64_t kEncodeBytesPerVertex = 720;  // of the subtrees that are in work
 constexpr uint64_t kDecodeBytesPerVertex = 320;
 constexpr uint64_t kRdBytesPerVertex =
     1200;  // of the whole scan: two meshes and their search trees

@@ -78,7 +78,7 @@ class JobReader {
     }
     if (const toml::node* node = table.get("config")) {
       cli::ReadKey(toml_, keys, table_name, "config", *node);
-      ReadSettings(*node, table_name, job);
+      if (!job->config.empty()) ReadSettings(*node, table_name, job);
     }
     if (const toml::node* node = table.get("effort")) {
       cli::ReadKey(toml_, keys, table_name, "effort", *node);

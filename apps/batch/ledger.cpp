@@ -7,11 +7,11 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
-#include "io/files/atomic_file.h"
 
 namespace folprom::batch {
 namespace {
@@ -137,7 +137,18 @@ void Ledger::Open() {
     if (!done_.contains(key)) text += LineOf(BeginLine(key, 0));
   }
   for (const auto& [key, record] : done_) text += LineOf(DoneLine(key, record));
-  io::WriteWholeFile(PathOf(), text, true).value();
+  // Not by an atomic file: one whose process is killed would stay under a name that nobody knows.
+  const std::string fresh = PathOf() + ".new";
+  {
+    io::Descriptor file(::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!file.open()) io::ThrowSystemError(ErrorKind::kOutput, fresh, "cannot open");
+    io::WriteAll(file.get(), {reinterpret_cast<const uint8_t*>(text.data()), text.size()}, fresh);
+    if (::fsync(file.get()) != 0) io::ThrowSystemError(ErrorKind::kOutput, fresh, "cannot sync");
+    file.CloseChecked(fresh);
+  }
+  if (::rename(fresh.c_str(), PathOf().c_str()) != 0) {
+    io::ThrowSystemError(ErrorKind::kOutput, PathOf(), "cannot rename into place");
+  }
   file_ = io::Descriptor(::open(PathOf().c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
   if (!file_.open()) io::ThrowSystemError(ErrorKind::kOutput, PathOf(), "cannot open");
 }

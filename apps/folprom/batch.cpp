@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "apps/batch/batch_display.h"
 #include "apps/batch/batch_report.h"
+#include "apps/batch/example.h"
 #include "apps/batch/job_file.h"
 #include "apps/batch/plan.h"
 #include "apps/batch/run.h"
@@ -35,17 +37,19 @@ using batch::Status;
 constexpr const char* kDescription =
     "Encode, decode and verify many scans by one job file\n"
     "\n"
+    "  folprom batch --print-example > scans.toml\n"
     "  folprom batch scans.toml --dry-run\n"
     "  folprom batch scans.toml -T 16 -M 32GiB\n"
     "\n"
-    "configs/batch_example.toml explains every key. The same command goes on where it was\n"
-    "interrupted, and later does only what is missing or out of date.";
+    "The example explains every key. The same command goes on where it was interrupted, and later\n"
+    "does only what is missing or out of date.";
 
 struct BatchFlags {
   CommonFlags common;
   WorkFlags work;
   std::string job_file;
   bool dry_run = false;
+  bool print_example = false;
 };
 
 batch::JobFile ReadJobs(const BatchFlags& flags) {
@@ -122,9 +126,8 @@ BatchReport ReportOf(const Plan& plan, std::vector<OperationResult> results, std
   report.scans_done = counts.done;
   report.scans_failed = counts.failed;
   for (const OperationResult& result : results) {
-    if (report.exit_code == 0 && result.status == Status::kFailed) {
-      report.exit_code = result.exit_code;
-    }
+    // Not 0 where an operation failed, or was interrupted from outside.
+    if (report.exit_code == 0) report.exit_code = result.exit_code;
   }
   report.results = std::move(results);
   return report;
@@ -208,6 +211,11 @@ int DryRun(const BatchFlags& flags, Plan* plan, Session& session, std::time_t st
 }
 
 int Run(const BatchFlags& flags) {
+  if (flags.print_example) {
+    Print(batch::ExampleText());
+    return 0;
+  }
+  if (flags.job_file.empty()) throw Failure(ErrorKind::kUsage, "batch needs JOB.toml");
   const std::time_t started = std::time(nullptr);
   Plan plan = batch::MakePlan(ReadJobs(flags));
   // Operations run in processes of their own, which are to be started from one without threads.
@@ -241,10 +249,10 @@ int Run(const BatchFlags& flags) {
 Verb AddBatch(CLI::App& program) {
   auto flags = std::make_shared<BatchFlags>();
   CLI::App* verb = program.add_subcommand("batch", kDescription);
-  verb->add_option("JOB.toml", flags->job_file, "What to do with which scans")
-      ->type_name("")
-      ->required();
+  verb->add_option("JOB.toml", flags->job_file, "What to do with which scans")->type_name("");
   verb->add_flag("--dry-run", flags->dry_run, "Tell what would be done and why, and do nothing");
+  verb->add_flag("--print-example", flags->print_example,
+                 "Print a job file that explains every key, and stop");
   AddWorkFlags(verb, &flags->work);
   AddCommonFlags(verb, &flags->common);
   AddProgressFlag(verb, &flags->common);

@@ -125,7 +125,8 @@ std::string CommentText(const Key& key, const std::string& default_value) {
   if (!range.empty()) text += fmt::format(" range: {};", range);
   if (!default_value.empty()) text += fmt::format(" default: {}", default_value);
   if (text.ends_with(';')) text.pop_back();
-  return fmt::format("# {}\n", key.meaning) + (text.empty() ? "" : "#" + text + "\n");
+  if (!text.empty()) text = fmt::format("#{}\n", text);
+  return fmt::format("# {}\n{}", key.meaning, text);
 }
 
 }  // namespace folprom::cli

@@ -65,6 +65,11 @@ double Session::seconds() const {
 void CancelOnSignals(parallel::Progress* progress) {
   active_progress = progress;
   HandleSignals();
+  // The death of the parent may be told more than once.
+  struct sigaction action = {};
+  action.sa_handler = CancelActive;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGTERM, &action, nullptr);
 }
 
 uint64_t ResidentBytes(pid_t process) {

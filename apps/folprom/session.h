@@ -36,7 +36,8 @@ class Session {
   std::unique_ptr<ProgressDisplay> display_;
 };
 
-/// From now on the signals of a Session cancel this progress: in the child of a fork.
+/// From now on the signals of a Session cancel this progress, SIGTERM however often: in the child of
+/// a fork.
 void CancelOnSignals(parallel::Progress* progress);
 
 /// Resident size of a process now, 0 for this one, bytes; 0 where the system does not tell.

@@ -36,7 +36,10 @@ void BatchDisplay::Show(const BatchReading& reading) {
   const bool json = mode_ == DisplayMode::kJson;
   const auto period = json ? Clock::duration(kJsonPeriod)
                            : (terminal_ ? Clock::duration(kLivePeriod) : kPlainPeriod);
-  if (Clock::now() - last_ < period) return;
+  // A program that reads hears at once that the batch has begun.
+  const bool first = json && !begun_;
+  if (!first && Clock::now() - last_ < period) return;
+  begun_ = true;
   last_ = Clock::now();
   if (json) {
     const std::string line = JsonOf(reading).dump(-1, ' ', false, Json::error_handler_t::replace);

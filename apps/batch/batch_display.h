@@ -11,7 +11,7 @@ namespace folprom::batch {
 enum class DisplayMode : uint8_t { kNone, kText, kJson };
 
 /// On a terminal two live lines: all scans, and what runs. Elsewhere one line every ten seconds. As
-/// JSON: one object a line, each second. No thread of its own.
+/// JSON: one object a line, at once and each second. No thread of its own.
 class BatchDisplay {
  public:
   explicit BatchDisplay(DisplayMode mode);
@@ -29,7 +29,8 @@ class BatchDisplay {
   const DisplayMode mode_;
   const bool terminal_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  bool shown_ = false;
+  bool begun_ = false;
+  bool shown_ = false;  ///< the live lines are
 };
 
 /// "12 of 340 scans  35 %  180.0 k vertices/s  0:40 left  1.2 GiB", with "  1 failed".

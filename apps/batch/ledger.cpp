@@ -12,7 +12,6 @@
 #include <fstream>
 #include <thread>
 
-
 namespace folprom::batch {
 namespace {
 

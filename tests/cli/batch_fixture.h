@@ -39,9 +39,13 @@ class BatchTest : public CliTest {
     std::map<std::string, std::string> statuses;
     const nlohmann::json report = Report();
     for (const auto& result : report.at("results")) {
-      std::string name =
-          result.at("operation").get<std::string>() + " " + result.at("scan").get<std::string>();
-      if (result.at("operation") == "decode") name += " " + result.at("lod").get<std::string>();
+      std::string name = result.at("operation");
+      name += ' ';
+      name += result.at("scan").get<std::string>();
+      if (result.at("operation") == "decode") {
+        name += ' ';
+        name += result.at("lod").get<std::string>();
+      }
       statuses[name] = result.at("status");
     }
     return statuses;

@@ -17,10 +17,10 @@ namespace {
 
 class BatchResume : public BatchTest {
  protected:
-  static constexpr int kScans = 4;
+  static constexpr int kScans = 3;
 
   void SetUp() override {
-    for (int i = 0; i < kScans; ++i) MakeScan("scans/s" + std::to_string(i) + ".ply", 1500, i);
+    for (int i = 0; i < kScans; ++i) MakeScan("scans/s" + std::to_string(i) + ".ply", 1000, i);
     std::filesystem::create_directory(Path("tmp"));
     WriteJob(JobFor("whole"));
     ASSERT_EQ(RunBatch().exit_code, 0);
@@ -79,7 +79,7 @@ TEST_F(BatchResume, InterruptedAtAnyMomentEndsWithTheSameOutputs) {
   for (int round = 0; round < 3; ++round) {
     std::filesystem::remove_all(Path("cut"));
     int interrupted = 0;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 3; ++i) {
       const int code = RunAndSignal(SIGINT, std::chrono::milliseconds(random() % 300));
       // Before the handler stands the signal itself ends it; a fast run is done before it comes.
       EXPECT_TRUE(code == 130 || code == 0 || code == -1) << code;
@@ -102,7 +102,7 @@ TEST_F(BatchResume, KilledAtAnyMomentEndsWithTheSameOutputs) {
   std::mt19937 random(8);
   for (int round = 0; round < 3; ++round) {
     std::filesystem::remove_all(Path("cut"));
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 3; ++i) {
       EXPECT_EQ(RunAndSignal(SIGKILL, std::chrono::milliseconds(random() % 300)), -1);
     }
     // The next run waits for what the killed one left running.

@@ -315,13 +315,14 @@ bits = 9
 }
 
 TEST_F(Batch, ProgressAsJsonLines) {
-  MakeScan("a.ply", 40000, 1);
+  MakeScan("a.ply", 10000, 1);
   WriteJob("[[job]]\ninput = \"a.ply\"\noutput = \"out\"\neffort = 9\n");
   const Outcome outcome = RunBatch({"--progress", "json", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.json().at("scans_done"), 1);
   std::istringstream lines(outcome.err);
-  for (std::string line; std::getline(lines, line);) {
+  size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
     const auto reading = nlohmann::json::parse(line);
     EXPECT_EQ(reading.at("scans"), 1);
     EXPECT_GE(reading.at("fraction"), 0);
@@ -329,6 +330,7 @@ TEST_F(Batch, ProgressAsJsonLines) {
     EXPECT_GT(reading.at("memory_bytes"), 0);
     for (const auto& running : reading.at("running")) EXPECT_EQ(running.at("scan"), "a.ply");
   }
+  EXPECT_GT(count, 0);
 }
 
 TEST_F(Batch, LimitOfTheOutputIsAnErrorOfItsScan) {

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "tests/cli/program.h"
@@ -11,6 +12,8 @@ namespace folprom::cli_test {
 namespace {
 
 const std::string kConfigs = FOLPROM_SOURCE_DIR "/configs/";
+constexpr const char* kFiles[] = {"default.toml", "archive.toml", "fast.toml", "paper.toml",
+                                  "web.toml"};
 
 class Config : public CliTest {
  protected:
@@ -49,10 +52,33 @@ TEST_F(Config, DefaultFileIsWhatTheProgramPrints) {
   EXPECT_EQ(FromFirstTable(FileText(kConfigs + "default.toml")), printed.out);
 }
 
-TEST_F(Config, PaperFileIsInTheFormThatTheProgramPrints) {
-  const Outcome printed = Effective({"--config", kConfigs + "paper.toml"});
-  ASSERT_EQ(printed.exit_code, 0) << printed.err;
-  EXPECT_EQ(FromFirstTable(FileText(kConfigs + "paper.toml")), printed.out);
+TEST_F(Config, EveryOtherFileIsInTheFormThatTheProgramPrints) {
+  for (const char* name : {"archive.toml", "fast.toml", "paper.toml", "web.toml"}) {
+    const Outcome printed = Effective({"--config", kConfigs + name});
+    ASSERT_EQ(printed.exit_code, 0) << printed.err;
+    EXPECT_EQ(FromFirstTable(FileText(kConfigs + name)), printed.out);
+  }
+}
+
+TEST_F(Config, FilesDoWhatTheirNamesSay) {
+  ASSERT_EQ(Run({"synth", "--vertices", "5000", "-o", Path("s.ply"), "-q"}).exit_code, 0);
+  std::map<std::string, nlohmann::json> infos;
+  for (const std::string name : {"default", "archive", "fast", "web"}) {
+    const std::string folp = Path(name + ".folp");
+    ASSERT_EQ(
+        Run({"encode", Path("s.ply"), "-o", folp, "-q", "--config", kConfigs + name + ".toml"})
+            .exit_code,
+        0);
+    EXPECT_EQ(Run({"verify", folp, "--against", Path("s.ply"), "-q"}).exit_code, 0) << name;
+    infos[name] = Run({"info", folp, "--json"}).json();
+  }
+  EXPECT_FALSE(infos.at("archive").at("exact").is_null());
+  EXPECT_EQ(infos.at("fast").at("codec").at("effort"), 1);
+  EXPECT_GT(infos.at("fast").at("bytes"), infos.at("default").at("bytes"));
+  const auto first_layer = [&](const std::string& name) {
+    return infos.at(name).at("layers")[0].at("end_byte").get<uint64_t>();
+  };
+  EXPECT_LT(first_layer("web"), first_layer("default"));
 }
 
 TEST_F(Config, LatticeOffsetsAskForTheQuadricHierarchy) {
@@ -86,12 +112,19 @@ TEST_F(Config, BitsOnTheCommandLineWinOverExactInTheFile) {
 TEST_F(Config, EveryKeyStandsInEveryFileAndNoOther) {
   const auto known = KeysOf(toml::parse(Effective({}).out));
   EXPECT_GT(known.size(), 20u);
-  EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + "default.toml")), known);
-  EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + "paper.toml")), known);
+  for (const char* name : kFiles) {
+    EXPECT_EQ(KeysOf(toml::parse_file(kConfigs + name)), known) << name;
+  }
+  // That of batches has them flat, and those of the whole batch once more.
+  const std::string example = FileText(kConfigs + "batch_example.toml");
+  for (const std::string& key : known) {
+    const std::string name = key.substr(key.find('.') + 1);
+    EXPECT_NE(example.find("\n#" + name + " = "), std::string::npos) << name;
+  }
 }
 
 TEST_F(Config, EveryKeyOfTheFilesHasItsComment) {
-  for (const char* name : {"default.toml", "paper.toml"}) {
+  for (const char* name : kFiles) {
     const std::string text = FileText(kConfigs + name);
     for (const std::string& full_name : KeysOf(toml::parse(text))) {
       const std::string key = full_name.substr(full_name.find('.') + 1);

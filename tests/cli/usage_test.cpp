@@ -2,6 +2,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 #include "tests/cli/program.h"
@@ -12,7 +13,8 @@ namespace {
 class Usage : public CliTest {};
 
 TEST_F(Usage, HelpShowsExamplesBeforeOptions) {
-  for (const char* verb : {"encode", "decode", "info", "verify", "compare", "rd", "synth"}) {
+  for (const char* verb :
+       {"encode", "decode", "info", "verify", "compare", "rd", "batch", "synth"}) {
     const Outcome outcome = Run({verb, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     const size_t example = outcome.out.find(std::string("  folprom ") + verb + " ");
@@ -166,6 +168,33 @@ TEST_F(Usage, FileThatMayNotGrowIsAnOutputErrorAndLeavesNothing) {
     EXPECT_EQ(Files(), before) << arguments[0];
     EXPECT_TRUE(std::filesystem::is_empty(Path("tmp"))) << arguments[0];
   }
+}
+
+TEST_F(Usage, EveryWorkingVerbTellsItsProgressAsJsonLines) {
+  const std::vector<std::vector<std::string>> calls = {
+      {"synth", "--vertices", "2000", "-o", Path("s.ply")},
+      {"encode", Path("s.ply"), "-o", Path("s.folp")},
+      {"decode", Path("s.folp"), "-o", Path("d.ply")},
+      {"verify", Path("s.folp")},
+      {"compare", Path("s.ply"), Path("d.ply"), "--samples", "1k"},
+      {"rd", Path("s.ply"), "--bpv", "4", "--samples", "1k"}};
+  for (std::vector<std::string> arguments : calls) {
+    arguments.insert(arguments.end(), {"-q", "--progress", "json"});
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    std::istringstream lines(outcome.err);
+    std::string line;
+    size_t count = 0;
+    for (; std::getline(lines, line); ++count) {
+      const auto reading = nlohmann::json::parse(line);
+      EXPECT_NE(reading.at("stage"), "") << arguments[0];
+      EXPECT_LE(reading.at("done"), reading.at("total")) << arguments[0];
+      EXPECT_GT(reading.at("memory_bytes"), 0);
+    }
+    EXPECT_GT(count, 0) << arguments[0];
+  }
+  ExpectError({"synth", "--vertices", "9", "-o", Path("o"), "--progress", "xml"}, 2, "--progress");
 }
 
 TEST_F(Usage, QuietPrintsNothing) {

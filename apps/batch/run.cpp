@@ -192,7 +192,8 @@ class BatchRun {
       if (progress.unit == "vertices") vertices += static_cast<double>(progress.done);
       reading.running.push_back({plan_.JobOf(task).name, scan.name, task.operation, progress});
     }
-    if (left_bytes_ > 0) reading.fraction = std::min(1.0, done / static_cast<double>(left_bytes_));
+    if (left_bytes_ > 0) fraction_ = std::max(fraction_, done / static_cast<double>(left_bytes_));
+    reading.fraction = std::min(1.0, fraction_);
     if (reading.fraction > 0) {
       reading.seconds_left = reading.seconds * (1 - reading.fraction) / reading.fraction;
     }
@@ -213,6 +214,7 @@ class BatchRun {
   uint64_t left_bytes_ = 0;  ///< to read in this run, those already read included
   uint64_t done_bytes_ = 0;
   uint64_t done_vertices_ = 0;
+  double fraction_ = 0;  ///< never falls, though each stage of an operation begins anew
 };
 
 }  // namespace

@@ -53,8 +53,10 @@ Result<Comparison> CompareFiles(const std::string& a, const std::string& b,
                                 const CompareOptions& options, parallel::Runner& runner,
                                 parallel::Progress& progress) {
   return RunGuarded<Comparison>([&] {
-    measure::TriangleMesh first = measure::ReadMesh(a, options.temporary_folder, runner, progress);
-    measure::TriangleMesh second = measure::ReadMesh(b, options.temporary_folder, runner, progress);
+    measure::ReadOptions read;
+    read.decode.temporary_folder = options.temporary_folder;
+    measure::TriangleMesh first = measure::ReadMesh(a, read, runner, progress);
+    measure::TriangleMesh second = measure::ReadMesh(b, read, runner, progress);
     const uint64_t faces = std::max(first.faces.size(), second.faces.size());
     const uint64_t samples = options.samples > 0 ? options.samples : measure::DefaultSamples(faces);
     progress.StartStage("build", 0);

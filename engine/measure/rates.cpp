@@ -26,9 +26,7 @@ class RateJob {
     const EncodeReport report = EncodeFile(scan_, encoded_, options_, runner_, progress_).value();
     RateCurve curve{report.vertices, report.faces, report.bytes, {}, report.warnings};
     const FileInfo info = ReadInfo(encoded_).value();
-    measure::Original original(
-        measure::ReadMesh(scan_, options_.temporary_folder, runner_, progress_), scan_, runner_,
-        progress_);
+    measure::Original original(Mesh(scan_), scan_, runner_, progress_);
     for (const double rate : rates) {
       RatePoint point = Decoded(rate);
       point.bytes = info.layers[point.layers - 1].end_byte;
@@ -62,9 +60,11 @@ class RateJob {
   Comparison Compared(measure::Original* original) const {
     const uint64_t samples =
         samples_ > 0 ? samples_ : measure::DefaultSamples(original->face_count());
-    return original->Against(
-        measure::ReadMesh(Decoding(), options_.temporary_folder, runner_, progress_), scan_,
-        samples);
+    return original->Against(Mesh(Decoding()), scan_, samples);
+  }
+
+  measure::TriangleMesh Mesh(const std::string& path) const {
+    return measure::ReadMesh(path, {}, runner_, progress_);
   }
 
   std::string Decoding() const { return folder_.File("decoded.ply"); }

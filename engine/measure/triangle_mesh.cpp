@@ -19,23 +19,23 @@ constexpr uint64_t kMaxCount = std::numeric_limits<uint32_t>::max() - 1;
 // Squares of coordinates in the frame must stay within float.
 constexpr double kFarthest = 1e17;
 
-bool IsFolp(const std::string& path) {
-  const io::MappedFile file = io::MappedFile::Open(path).value();
-  const auto bytes = file.bytes();
-  // A cut file is the decoder's to refuse.
-  const size_t size = std::min(bytes.size(), io::kMagic.size());
-  return size > 0 && std::equal(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size),
-                                io::kMagic.begin());
-}
-
 void CheckCount(const std::string& path, uint64_t count, const char* what) {
   if (count <= kMaxCount) return;
   throw Failure(ErrorKind::kLimit, path + ": " + std::to_string(count) + " " + what + "; at most " +
                                        std::to_string(kMaxCount) + " can be compared");
 }
 
-void ReadPositions(const io::MeshSource& source, const std::string& path, parallel::Runner& runner,
-                   parallel::Progress& progress, std::vector<Vector3>* positions) {
+void CheckFinite(const std::string& path, uint64_t vertex, const Vector3& position) {
+  for (const double x : position) {
+    if (std::isfinite(x)) continue;
+    throw Failure(ErrorKind::kInput,
+                  path + ": vertex " + std::to_string(vertex) + ": position is not finite");
+  }
+}
+
+void ReadPositions(const io::MeshSource& source, const std::string& path, bool take_all,
+                   parallel::Runner& runner, parallel::Progress& progress,
+                   std::vector<Vector3>* positions) {
   positions->resize(source.vertex_count());
   runner.ForEach(source.vertex_block_count(), [&](size_t block) {
     std::vector<double> xyz;
@@ -43,11 +43,7 @@ void ReadPositions(const io::MeshSource& source, const std::string& path, parall
     const uint64_t begin = source.vertex_block_begin(block);
     for (size_t i = 0; i < xyz.size() / 3; ++i) {
       const Vector3 position = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-      for (const double x : position) {
-        if (std::isfinite(x)) continue;
-        throw Failure(ErrorKind::kInput,
-                      path + ": vertex " + std::to_string(begin + i) + ": position is not finite");
-      }
+      if (!take_all) CheckFinite(path, begin + i, position);
       (*positions)[begin + i] = position;
     }
     progress.Advance(xyz.size() / 3);
@@ -72,32 +68,44 @@ void ReadFaces(const io::MeshSource& source, parallel::Runner& runner, parallel:
       });
 }
 
-TriangleMesh ReadSource(const std::string& file, const std::string& path, parallel::Runner& runner,
+TriangleMesh ReadSource(const std::string& file, const std::string& path,
+                        const ReadOptions& options, parallel::Runner& runner,
                         parallel::Progress& progress) {
   const auto source = std::move(io::MeshSource::Open(file).value());
   CheckCount(path, source->vertex_count(), "vertices");
   CheckCount(path, source->triangle_count(), "faces");
-  if (source->vertex_count() == 0) {
+  if (source->vertex_count() == 0 && !options.take_all) {
     throw Failure(ErrorKind::kInput, path + ": the mesh has no vertices");
+  }
+  if (options.before_loading) {
+    options.before_loading(source->vertex_count(), source->triangle_count());
   }
   progress.StartStage("read", source->vertex_count() + source->triangle_count());
   TriangleMesh mesh;
-  ReadPositions(*source, path, runner, progress, &mesh.positions);
+  ReadPositions(*source, path, options.take_all, runner, progress, &mesh.positions);
   ReadFaces(*source, runner, progress, &mesh.faces);
   return mesh;
 }
 
 }  // namespace
 
-TriangleMesh ReadMesh(const std::string& path, const std::string& temporary_folder,
-                      parallel::Runner& runner, parallel::Progress& progress) {
-  if (!IsFolp(path)) return ReadSource(path, path, runner, progress);
-  const io::SpillDirectory folder(temporary_folder);
+bool IsFolp(const std::string& path) {
+  const io::MappedFile file = io::MappedFile::Open(path).value();
+  const auto bytes = file.bytes();
+  // A cut file is the decoder's to refuse.
+  const size_t size = std::min(bytes.size(), io::kMagic.size());
+  return size > 0 && std::equal(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size),
+                                io::kMagic.begin());
+}
+
+TriangleMesh ReadMesh(const std::string& path, const ReadOptions& options, parallel::Runner& runner,
+                      parallel::Progress& progress) {
+  if (!IsFolp(path)) return ReadSource(path, path, options, runner, progress);
+  const io::SpillDirectory folder(options.decode.temporary_folder);
   const std::string decoded = folder.File("decoded.ply");
-  DecodeOptions options;
-  options.temporary_folder = temporary_folder;
-  DecodeFile(path, decoded, options, runner, progress).value();
-  return ReadSource(decoded, path, runner, progress);
+  const DecodeReport report = DecodeFile(path, decoded, options.decode, runner, progress).value();
+  if (options.warnings != nullptr) *options.warnings = report.warnings;
+  return ReadSource(decoded, path, options, runner, progress);
 }
 
 UnitFrame::UnitFrame(const TriangleMesh& mesh, const std::string& path) {

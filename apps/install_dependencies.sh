@@ -4,7 +4,7 @@
 set -eu
 
 packages="cmake g++ libboost-iostreams-dev libcli11-dev libeigen3-dev libembree-dev libfast-float-dev
-  libgtest-dev libopenvdb-dev libspdlog-dev libtbb-dev libtomlplusplus-dev libxxhash-dev
+  libgtest-dev libopenvdb-dev libpng-dev libspdlog-dev libtbb-dev libtomlplusplus-dev libxxhash-dev
   ninja-build nlohmann-json3-dev zlib1g-dev"
 bench_packages="draco libdraco-dev libmeshoptimizer-dev libzstd-dev openctm-tools xz-utils"
 

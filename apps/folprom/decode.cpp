@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/folprom/lod_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/report.h"
 #include "apps/folprom/session.h"
@@ -28,20 +29,14 @@ struct DecodeFlags {
   WorkFlags work;
   std::string input;
   std::string output;
-  std::optional<double> bits_per_vertex;
-  std::optional<double> max_error;
-  std::optional<uint64_t> max_vertices;
-  std::optional<uint32_t> layers;
+  LodFlags lod;
   std::optional<std::string> region;
   bool force = false;
 };
 
 DecodeOptions Settings(const DecodeFlags& flags) {
   DecodeOptions options;
-  options.bits_per_vertex = flags.bits_per_vertex.value_or(0);
-  options.max_error = flags.max_error.value_or(0);
-  options.max_vertices = flags.max_vertices.value_or(0);
-  options.layers = flags.layers.value_or(0);
+  flags.lod.ApplyTo(&options);
   if (flags.region) {
     auto box = ParseRegion(*flags.region);
     if (!box) throw Failure(ErrorKind::kUsage, "--region: " + box.error().message);
@@ -103,21 +98,7 @@ Verb AddDecode(CLI::App& program) {
       ->type_name("OUT")
       ->required();
   verb->add_flag("-f,--force", flags->force, "May replace the output");
-  CLI::Option* bounds[] = {
-      AddPositiveOption(verb, "--bpv", &flags->bits_per_vertex, "R",
-                        "As many layers as fit into R bits per vertex of the original"),
-      AddPositiveOption(verb, "--max-error", &flags->max_error, "LENGTH",
-                        "The first layer whose error bound is at most this, in model units"),
-      AddCountOption(verb, "--max-vertices", &flags->max_vertices,
-                     "The last layer of at most N vertices"),
-      verb->add_option("--layers", flags->layers, "The first N layers")
-          ->check(CLI::Range(uint32_t{1}, UINT32_MAX))
-          ->type_name("N")};
-  for (CLI::Option* bound : bounds) {
-    for (CLI::Option* other : bounds) {
-      if (bound != other) bound->excludes(other);
-    }
-  }
+  AddLodFlags(verb, &flags->lod);
   verb->add_option("--region", flags->region, "Only what lies in this box, in model units")
       ->type_name("x0,y0,z0,x1,y1,z1");
   AddWorkFlags(verb, &flags->work);

@@ -25,6 +25,7 @@ constexpr const char* kDescription =
     "  folprom compare scan.ply preview.ply\n"
     "  folprom rd scan.ply -o curve\n"
     "  folprom batch scans.toml\n"
+    "  folprom render scan.folp --sheet -o lods.png\n"
     "  folprom synth --vertices 10M -o scan.ply";
 
 constexpr const char* kFooter =
@@ -73,7 +74,7 @@ int Run(int argc, char** argv) {
   program.require_subcommand(0, 1);
   const Verb verbs[] = {AddEncode(program), AddDecode(program),  AddInfo(program),
                         AddVerify(program), AddCompare(program), AddRd(program),
-                        AddBatch(program),  AddSynth(program)};
+                        AddBatch(program),  AddRender(program),  AddSynth(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -85,7 +86,8 @@ int Run(int argc, char** argv) {
     if (verb.parser->parsed()) return verb.run();
   }
   return Report({ErrorKind::kUsage,
-                 "no verb given: encode, decode, info, verify, compare, rd, batch or synth"});
+                 "no verb given: encode, decode, info, verify, compare, rd, batch, render or "
+                 "synth"});
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ std::string CurveSvg(const CurveOrigin& origin, const RateCurve& curve) {
 
 }  // namespace
 
-std::vector<double> ParseRates(const std::string& text) {
+std::vector<double> ParseRates(const std::string& text, const std::string& option) {
   std::vector<double> rates;
   const char* at = text.data();
   const char* const end = at + text.size();
@@ -88,7 +88,7 @@ std::vector<double> ParseRates(const std::string& text) {
     const bool number = error == std::errc() && std::isfinite(rate) && rate > 0;
     if (!number || (after != end && *after != ',')) {
       throw Failure(ErrorKind::kUsage,
-                    "--bpv: '" + text + "' is not a list of rates above 0 such as 0.5,1,2");
+                    option + ": '" + text + "' is not a list of rates above 0 such as 0.5,1,2");
     }
     rates.push_back(rate);
     if (after == end) return rates;

@@ -24,8 +24,8 @@ struct CurveOrigin {
   EncodeOptions options;
 };
 
-/// "0.5,1,2", each above 0. Throws Failure kUsage.
-std::vector<double> ParseRates(const std::string& text);
+/// "0.5,1,2", each above 0. Throws Failure kUsage with the name of the option.
+std::vector<double> ParseRates(const std::string& text, const std::string& option = "--bpv");
 
 /// The larger of both directions.
 DistanceStatistics LargerOf(const Comparison& comparison);

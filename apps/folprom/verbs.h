@@ -22,6 +22,7 @@ Verb AddInfo(CLI::App& program);
 Verb AddVerify(CLI::App& program);
 Verb AddCompare(CLI::App& program);
 Verb AddRd(CLI::App& program);
+Verb AddRender(CLI::App& program);
 Verb AddSynth(CLI::App& program);
 Verb AddBatch(CLI::App& program);
 

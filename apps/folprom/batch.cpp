@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "apps/batch/batch_display.h"
+#include "apps/batch/batch_page.h"
 #include "apps/batch/batch_report.h"
 #include "apps/batch/example.h"
 #include "apps/batch/job_file.h"
@@ -50,6 +51,7 @@ struct BatchFlags {
   std::string job_file;
   bool dry_run = false;
   bool print_example = false;
+  bool no_pictures = false;
 };
 
 batch::JobFile ReadJobs(const BatchFlags& flags) {
@@ -162,6 +164,18 @@ void WriteReport(const BatchReport& report, const std::string& path) {
   io::WriteWholeFile(path, text + "\n", true).value();
 }
 
+void WritePage(const BatchFlags& flags, const BatchReport& report, Plan* plan,
+               parallel::Progress& progress) {
+  std::unique_ptr<ProgressDisplay> display;
+  if (flags.common.progress_json || !(flags.common.quiet || flags.common.json)) {
+    display = std::make_unique<ProgressDisplay>(progress, flags.common.verbose,
+                                                flags.common.progress_json);
+  }
+  const auto runner = MakeRunner(flags.work, report.threads);
+  batch::WriteBatchPage(report, plan->file.report, plan->file.temporary_folder, !flags.no_pictures,
+                        &plan->hashes, *runner, progress);
+}
+
 // What each operation would do and why. Reads files, writes none.
 std::vector<OperationResult> Rehearse(Plan* plan, parallel::Progress& progress) {
   std::vector<OperationResult> results;
@@ -235,6 +249,7 @@ int Run(const BatchFlags& flags) {
   if (report.interrupted) report.exit_code = static_cast<int>(ErrorKind::kInterrupted);
   const std::string report_path = plan.file.report + "/report.json";
   WriteReport(report, report_path);
+  WritePage(flags, report, &plan, session.progress());
   if (flags.common.json) {
     PrintJson(ToJson(report));
   } else if (!flags.common.quiet) {
@@ -253,6 +268,7 @@ Verb AddBatch(CLI::App& program) {
   verb->add_flag("--dry-run", flags->dry_run, "Tell what would be done and why, and do nothing");
   verb->add_flag("--print-example", flags->print_example,
                  "Print a job file that explains every key, and stop");
+  verb->add_flag("--no-pictures", flags->no_pictures, "Draw no meshes for report.html");
   AddWorkFlags(verb, &flags->work);
   AddCommonFlags(verb, &flags->common);
   AddProgressFlag(verb, &flags->common);

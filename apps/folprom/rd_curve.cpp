@@ -59,24 +59,33 @@ PlotSeries PublishedSeries(const char* name, std::span<const PublishedPoint> poi
 }
 
 std::string CurveSvg(const CurveOrigin& origin, const RateCurve& curve) {
-  RatePlot plot;
-  plot.title = std::filesystem::path(origin.scan).filename().string() + ": rate and distortion";
-  plot.subtitle = fmt::format("{} vertices, {} faces; the whole file has {:.2f} bits per vertex",
-                              Grouped(curve.vertices), Grouped(curve.faces), WholeRate(curve));
-  PlotSeries own{"folprom, " + origin.label, {}};
+  CurvePlot plot;
+  plot.scan = std::filesystem::path(origin.scan).filename().string();
+  plot.label = origin.label;
+  plot.vertices = curve.vertices;
+  plot.faces = curve.faces;
+  plot.bits_per_vertex = WholeRate(curve);
   for (const RatePoint& point : curve.points) {
     const auto relative = Relative(LargerOf(point.comparison).mean, point.comparison);
-    own.points.push_back({point.bits_per_vertex, 1e4 * relative.value_or(0)});
+    plot.points.push_back({point.bits_per_vertex, 1e4 * relative.value_or(0)});
   }
-  plot.series.push_back(own);
+  return SvgOf(plot);
+}
+
+}  // namespace
+
+std::string SvgOf(const CurvePlot& curve) {
+  RatePlot plot;
+  plot.title = curve.scan + ": rate and distortion";
+  plot.subtitle = fmt::format("{} vertices, {} faces; the whole file has {:.2f} bits per vertex",
+                              Grouped(curve.vertices), Grouped(curve.faces), curve.bits_per_vertex);
+  plot.series.push_back({"folprom, " + curve.label, curve.points});
   if (const PublishedScan* known = PublishedFor(curve.vertices)) {
     plot.series.push_back(PublishedSeries("FOLProM, the paper", known->paper));
     plot.series.push_back(PublishedSeries("simplify + Draco", known->simplify));
   }
   return SvgOf(plot);
 }
-
-}  // namespace
 
 std::vector<double> ParseRates(const std::string& text, const std::string& option) {
   std::vector<double> rates;

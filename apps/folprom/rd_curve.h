@@ -1,10 +1,12 @@
 // A measured rate-distortion curve as JSON, CSV, plot and table.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/folprom/rd_plot.h"
 #include "apps/folprom/report.h"
 #include "folprom/measure.h"
 #include "folprom/settings.h"
@@ -23,6 +25,18 @@ struct CurveOrigin {
   std::string label;   ///< of the settings, in the plot
   EncodeOptions options;
 };
+
+/// What the plot of a curve tells.
+struct CurvePlot {
+  std::string scan;   ///< name, for the title
+  std::string label;  ///< of the settings
+  uint64_t vertices = 0, faces = 0;
+  double bits_per_vertex = 0;  ///< of the whole file
+  std::vector<PlotPoint> points;
+};
+
+/// Beside the curve those that others have published of the scan.
+std::string SvgOf(const CurvePlot& curve);
 
 /// "0.5,1,2", each above 0. Throws Failure kUsage with the name of the option.
 std::vector<double> ParseRates(const std::string& text, const std::string& option = "--bpv");

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <string_view>
+
+#include "apps/folprom/markup.h"
 
 namespace folprom::cli {
 namespace {
@@ -21,26 +22,6 @@ struct Style {
 };
 constexpr Style kStyles[] = {
     {"#1d5fb4", 2.6, "none"}, {"#d1541b", 1.8, "7 4"}, {"#6b7280", 1.8, "2 4"}};
-
-std::string Escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return escaped;
-}
 
 // Maps a range of values to pixels by their logarithm.
 class LogAxis {
@@ -193,14 +174,19 @@ class Drawing {
 
   // Curves fall from left to right: the upper right corner is free.
   void DrawLegend() {
-    constexpr double kLine = 24, kBoxWidth = 210;
-    const double left = kRight - kBoxWidth - 12;
+    constexpr double kLine = 24, kLetter = 7;
+    size_t letters = 0;
+    for (const PlotSeries& series : plot_.series) {
+      if (!series.points.empty()) letters = std::max(letters, series.name.size());
+    }
+    const double width = 84 + kLetter * static_cast<double>(letters);
+    const double left = kRight - width - 12;
     const auto drawn = std::count_if(plot_.series.begin(), plot_.series.end(),
                                      [](const PlotSeries& s) { return !s.points.empty(); });
     const double height = kLine * static_cast<double>(drawn) + 12;
     Add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"5\" fill=\"#ffffff\" "
         "fill-opacity=\"0.92\" stroke=\"#d1d5db\"/>\n",
-        left, kTop + 10, kBoxWidth, height);
+        left, kTop + 10, width, height);
     double y = kTop + 16 + kLine / 2;
     for (size_t i = 0; i < plot_.series.size(); ++i) {
       if (plot_.series[i].points.empty()) continue;

@@ -6,8 +6,8 @@
 namespace folprom::render {
 namespace {
 
-// Of the coarsest mesh, where the file is large enough.
-constexpr double kFirstVertices = 300;
+// Of the coarsest mesh: this many, of small files this part of all.
+constexpr double kFirstVertices = 300, kFirstPart = 1.0 / 40;
 
 // Rising, each once.
 std::vector<uint32_t> Tidied(std::vector<uint32_t> levels) {
@@ -31,8 +31,8 @@ std::vector<uint32_t> SpreadLevels(const FileInfo& info, size_t count) {
   const auto layers = Present(info);
   if (layers.size() < 2) return {};
   const double last = LogVertices(layers.back());
-  const double first =
-      std::clamp(std::log(kFirstVertices), std::min(LogVertices(layers.front()), last), last);
+  const double wanted_first = std::min(std::log(kFirstVertices), last + std::log(kFirstPart));
+  const double first = std::max(wanted_first, std::min(LogVertices(layers.front()), last));
   std::vector<uint32_t> levels;
   for (size_t i = 0; i < count; ++i) {
     const double wanted =

@@ -26,7 +26,7 @@ class BatchTest : public CliTest {
   }
 
   Outcome RunBatch(std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"batch", Path("job.toml")});
+    more.insert(more.begin(), {"batch", Path("job.toml"), "--no-pictures"});
     return Run(more);
   }
 

@@ -55,7 +55,7 @@ class BatchResume : public BatchTest {
 
   // Starts the batch, ends it by the signal after a moment, and gives its exit code.
   int RunAndSignal(int signal, std::chrono::milliseconds moment) const {
-    const pid_t process = Start({"batch", Path("job.toml")});
+    const pid_t process = Start({"batch", Path("job.toml"), "--no-pictures"});
     std::this_thread::sleep_for(moment);
     kill(process, signal);
     return Wait(process).exit_code;
@@ -141,10 +141,11 @@ TEST_F(BatchResume, StateFileOfRubbishIsNoState) {
 }
 
 TEST_F(BatchResume, TwoBatchesInOneFolderWaitForEachOther) {
-  const pid_t first = Start({"batch", Path("job.toml")});
+  const pid_t first = Start({"batch", Path("job.toml"), "--no-pictures"});
   const pid_t second = fork();
   if (second == 0) {
-    execl(FOLPROM_PROGRAM, FOLPROM_PROGRAM, "batch", Path("job.toml").c_str(), "-q", nullptr);
+    execl(FOLPROM_PROGRAM, FOLPROM_PROGRAM, "batch", Path("job.toml").c_str(), "-q",
+          "--no-pictures", nullptr);
     _exit(127);
   }
   EXPECT_EQ(Wait(first).exit_code, 0);

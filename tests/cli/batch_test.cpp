@@ -337,7 +337,7 @@ TEST_F(Batch, LimitOfTheOutputIsAnErrorOfItsScan) {
   MakeScan("a.ply", 3000, 1);
   WriteJob("[[job]]\ninput = \"a.ply\"\noutput = \"out\"\n");
   // Room for the state file and the report, not for the scan.
-  const Outcome outcome = Wait(Start({"batch", Path("job.toml")}, 4000));
+  const Outcome outcome = Wait(Start({"batch", Path("job.toml"), "--no-pictures"}, 4000));
   EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
   EXPECT_NE(outcome.err.find("cannot write"), std::string::npos) << outcome.err;
   EXPECT_EQ(Contents("out").size(), 0);

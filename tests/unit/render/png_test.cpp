@@ -96,10 +96,12 @@ TEST(Levels, SpreadByEvenFactors) {
   const FileInfo info = FileOf(vertices);
   EXPECT_EQ(SpreadLevels(info, 4), (std::vector<uint32_t>{9, 11, 13, 15}));
   EXPECT_EQ(SpreadLevels(info, 1), (std::vector<uint32_t>{9}));
+  vertices.resize(11);  // 1,024 vertices: from 26 on
+  EXPECT_EQ(SpreadLevels(FileOf(vertices), 3), (std::vector<uint32_t>{6, 7, 9}));
 }
 
 TEST(Levels, AreEachThereOnce) {
-  EXPECT_EQ(SpreadLevels(FileOf({10, 20, 30}), 5), (std::vector<uint32_t>{2}));
+  EXPECT_EQ(SpreadLevels(FileOf({10, 20, 30}), 5), (std::vector<uint32_t>{1, 2}));
   EXPECT_TRUE(SpreadLevels(FileOf({10}), 5).empty());
   EXPECT_TRUE(SpreadLevels(FileOf({}), 5).empty());
   FileInfo cut = FileOf({400, 4000, 40'000, 400'000});

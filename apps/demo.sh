@@ -38,7 +38,10 @@ for quarter in 1 2 3; do
 done
 step $folprom decode $out/scan.folp -o $out/whole.ply -f
 step $folprom verify $out/scan.folp --against "$scan"
+step $folprom render $out/scan.folp --sheet -o $out/lods.png -f
 
 printf '\n== bytes on disk\n'
 wc -c "$scan" $out/scan.folp $out/lod1.ply $out/lod2.ply $out/lod3.ply $out/whole.ply |
   sed '$d'
+
+printf '\n== look at the levels of detail\n%s\n' "$out/lods.png"

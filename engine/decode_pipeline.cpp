@@ -10,8 +10,8 @@
 namespace folprom {
 namespace {
 
-/// Per vertex of a subtree: complex, cells and sets 420, results 60; exact positions twice.
-constexpr uint64_t kBytesPerVertex = 480, kExactBytesPerVertex = 48;
+/// Per vertex of a subtree: complex, cells and sets 560, results 60; exact positions twice.
+constexpr uint64_t kBytesPerVertex = 620, kExactBytesPerVertex = 48;
 
 /// How many subtrees may be under way or waiting for their turn.
 size_t WindowOf(const io::FileTable& table, const std::vector<uint32_t>& subtrees, bool has_rests,

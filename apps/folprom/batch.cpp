@@ -167,7 +167,9 @@ void WriteReport(const BatchReport& report, const std::string& path) {
 void WritePage(const BatchFlags& flags, const BatchReport& report, Plan* plan,
                parallel::Progress& progress) {
   std::unique_ptr<ProgressDisplay> display;
-  if (flags.common.progress_json || !(flags.common.quiet || flags.common.json)) {
+  const bool wanted = flags.common.progress_json || !(flags.common.quiet || flags.common.json);
+  // Without pictures there is nothing to wait for.
+  if (wanted && !flags.no_pictures) {
     display = std::make_unique<ProgressDisplay>(progress, flags.common.verbose,
                                                 flags.common.progress_json);
   }

@@ -75,9 +75,9 @@ SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree,
 }
 
 uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary, const CodecParameters& parameters) {
-  // Per vertex: tree and points 220, complex and cells 420, exact positions as read, as coded and
+  // Per vertex: tree and points 220, complex and cells 560, exact positions as read, as coded and
   // at the border 72. Per face: oracle and chunk 110.
-  return (uint64_t{1} << 20) + uint64_t{summary.vertices} * (parameters.exact ? 712 : 640) +
+  return (uint64_t{1} << 20) + uint64_t{summary.vertices} * (parameters.exact ? 852 : 780) +
          (summary.faces + summary.cross_faces) * 110;
 }
 

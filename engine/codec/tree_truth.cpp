@@ -140,7 +140,7 @@ FaceCensus TreeTruth::CountFaces(const Complex& complex) const {
 double TreeTruth::LargestDistance(const std::vector<Int3>& positions) const {
   double largest2 = 0;
   for (uint32_t v = 0; v < chunk_.positions.size(); ++v) {
-    Vector3 d = Difference(chunk_.positions[v], positions[oracle_.VertexOf(place_[v])]);
+    Vector3 d = Difference(chunk_.positions[v], positions[VertexOf(v)]);
     largest2 = std::max(largest2, Dot(d, d));
   }
   return std::sqrt(largest2);
@@ -148,7 +148,7 @@ double TreeTruth::LargestDistance(const std::vector<Int3>& positions) const {
 
 std::vector<uint32_t> TreeTruth::FinalVertices() const {
   std::vector<uint32_t> result(chunk_.positions.size());
-  for (uint32_t v = 0; v < result.size(); ++v) result[v] = oracle_.VertexOf(place_[v]);
+  for (uint32_t v = 0; v < result.size(); ++v) result[v] = VertexOf(v);
   return result;
 }
 

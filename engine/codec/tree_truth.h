@@ -42,6 +42,8 @@ class TreeTruth final : public SubtreeTruth {
   CoordinateRest Rest(uint32_t set, size_t axis) const override;
   FaceCensus CountFaces(const Complex& complex) const override;
 
+  /// LOD vertex that stands for a vertex of the chunk.
+  uint32_t VertexOf(uint32_t original) const { return oracle_.VertexOf(place_[original]); }
   /// Largest distance, lattice units, of an original vertex from its representative.
   double LargestDistance(const std::vector<Int3>& positions) const;
   /// After all splits: index in the decoded subtree of each vertex of the chunk.

@@ -9,8 +9,6 @@ namespace {
 /// Between cells that a step of 2 would part, in spacings.
 constexpr double kStep = 0.1;
 constexpr float kLearning = 0.1F;
-/// What a cell would teach less than is left alone.
-constexpr float kLeastLearned = 2e-5F;
 
 /// Squared distances in spacings to buckets: fine where vertices are near.
 LaneIntegers DistanceBuckets(Lanes squared, float last) {
@@ -199,7 +197,6 @@ void TangentDensity::Learn(double second_offset) {
   for (uint32_t k = 0; k < cells_; ++k) {
     const uint32_t group = k / kLanes, lane = k % kLanes;
     const float surprise = weight_[group][lane];
-    if (std::fabs(surprise) < kLeastLearned) continue;
     table[place_of_[k]] += 2 * surprise;
     far[static_cast<size_t>(far_bucket_[group][lane])] += surprise;
     for (uint32_t n = 0; n < neighbours_; ++n) {

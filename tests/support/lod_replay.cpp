@@ -249,8 +249,8 @@ void LodReplay::CollectRepresentatives() {
   representatives_.clear();
   if (impl_->subtrees.empty()) return;
   for (const VertexRef& ref : impl_->job.scan().vertex_map()) {
-    SplitOracle* oracle = impl_->subtrees[ref.subtree].truth.oracle();
-    representatives_.push_back(impl_->base[ref.subtree] + oracle->VertexOf(ref.local));
+    const auto& truth = impl_->subtrees[ref.subtree].truth;
+    representatives_.push_back(impl_->base[ref.subtree] + truth.VertexOf(ref.local));
   }
 }
 

@@ -5,7 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
+
+#include "io/formats/vertex_schema.h"
 
 namespace folprom::io {
 
@@ -54,6 +57,14 @@ struct SubtreeRecord {
   bool operator==(const SubtreeRecord&) const = default;
 };
 
+/// Least and largest value of an attribute, as whole numbers in the order of the values; see
+/// FORMAT.md.
+struct AttributeRange {
+  uint64_t least = 0;
+  uint64_t most = 0;
+  bool operator==(const AttributeRange&) const = default;
+};
+
 /// A segment is named by (layer, subtree, part).
 enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
 
@@ -67,10 +78,15 @@ struct FileTable {
   double unit = 1;                  ///< lattice
   std::array<int32_t, 3> extent{};  ///< lattice, 0 .. 2^30 - 1
   std::vector<uint8_t> codec;       ///< settings of the coder, meaning known to the engine only
+  /// Of the vertices; each has a range below, and bits in the last table.
+  VertexSchema schema;
+  std::vector<AttributeRange> attribute_ranges;
+  std::vector<std::string> remarks;  ///< lines of the scan's header: IsRemark
   // In the last table.
   double tolerance = 0;  ///< model units, per axis
   MeshDigest digest;
   std::array<uint64_t, kBitKinds> kind_bits{};  ///< bits spent per kind, whole file, rounded
+  std::vector<uint64_t> attribute_bits;         ///< the same, per attribute
   std::vector<LayerRecord> layers;
   std::vector<SubtreeRecord> subtrees;
   /// Size in bytes of each segment, index SegmentIndex(layer, subtree, part).
@@ -85,6 +101,8 @@ struct FileTable {
       return !subtree.lower_neighbours.empty();
     });
   }
+  /// Has it anything that a scan of bare positions and faces has not.
+  bool HasExtras() const { return !schema.attributes.empty() || !remarks.empty(); }
   bool operator==(const FileTable&) const = default;
 };
 

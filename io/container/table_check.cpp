@@ -26,6 +26,40 @@ std::string LatticeFault(const FileTable& table) {
   return {};
 }
 
+std::string AttributeFault(const FileTable& table, size_t number) {
+  const std::vector<VertexAttribute>& attributes = table.schema.attributes;
+  const VertexAttribute& attribute = attributes[number];
+  if (!IsAttributeName(attribute.name)) return "a name that no attribute can have";
+  for (size_t other = 0; other < number; ++other) {
+    if (attributes[other].name == attribute.name) return "the name of another attribute";
+  }
+  if (static_cast<size_t>(attribute.type) >= kScalarTypes) return "a type that does not exist";
+  const AttributeRange& range = table.attribute_ranges[number];
+  if (range.least > range.most || range.most > LargestOrdered(attribute.type)) {
+    return "range of values turned inside out, or beyond its type";
+  }
+  return {};
+}
+
+std::string ExtrasFault(const FileTable& table) {
+  const size_t count = table.schema.attributes.size();
+  if (count > kMostAttributes) return "more than 255 attributes";
+  if (table.attribute_ranges.size() != count || table.attribute_bits.size() != count) {
+    return "attributes without ranges or bits";
+  }
+  if (table.schema.before_position > count) return "the position stands behind its attributes";
+  for (size_t i = 0; i < count; ++i) {
+    const std::string fault = AttributeFault(table, i);
+    if (!fault.empty()) return "attribute " + std::to_string(i) + ": " + fault;
+  }
+  size_t bytes = 0;
+  for (const std::string& remark : table.remarks) {
+    if (!IsRemark(remark)) return "a remark that is no line of a header";
+    bytes += remark.size();
+  }
+  return bytes > kMostRemarkBytes ? "more than 64 KiB of remarks" : "";
+}
+
 std::string LayersFault(const FileTable& table) {
   if (table.layers.size() > kMaxLayers) return "more than 4096 layers";
   uint64_t before = 0;
@@ -107,8 +141,8 @@ std::string TableFault(const FileTable& table) {
   if (table.vertices > kMaxCount || table.faces > kMaxCount) {
     return "2^48 vertices or faces, or more";
   }
-  for (const auto& fault :
-       {LatticeFault(table), LayersFault(table), SubtreesFault(table), SegmentsFault(table)}) {
+  for (const auto& fault : {LatticeFault(table), ExtrasFault(table), LayersFault(table),
+                            SubtreesFault(table), SegmentsFault(table)}) {
     if (!fault.empty()) return fault;
   }
   return {};

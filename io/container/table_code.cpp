@@ -17,6 +17,8 @@ namespace {
 constexpr uint64_t kMaxCoordinate = (uint64_t{1} << 30) - 1;
 /// Fewest bytes of a record: varint, box of six, neighbour count.
 constexpr uint64_t kLeastSubtreeBytes = 8;
+/// Flags of the mesh: the origin is of floats; there are attributes or remarks.
+constexpr uint8_t kShortOrigin = 1, kExtras = 2;
 
 /// What so many layers take at least: a bit for each of three numbers, and the orders of the rows.
 uint64_t LayerBits(uint64_t layers) { return 3 * (layers + kRowParameterBits); }
@@ -146,12 +148,59 @@ std::vector<size_t> EndsOfTables(const FileTable& table) {
   return ends;
 }
 
+void WriteText(std::string_view text, ByteWriter* out) {
+  out->Varint(text.size());
+  out->Bytes({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+std::string ReadText(size_t longest, std::string_view what, ByteReader* in) {
+  const auto bytes = in->Bytes(in->VarintUpTo(longest, what));
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void WriteExtras(const FileTable& table, ByteWriter* out) {
+  const std::vector<VertexAttribute>& attributes = table.schema.attributes;
+  out->Varint(attributes.size());
+  for (size_t i = 0; i < attributes.size(); ++i) {
+    WriteText(attributes[i].name, out);
+    out->U8(static_cast<uint8_t>(attributes[i].type));
+    out->Varint(table.attribute_ranges[i].least);
+    out->Varint(table.attribute_ranges[i].most - table.attribute_ranges[i].least);
+  }
+  out->Varint(table.schema.before_position);
+  out->Varint(table.remarks.size());
+  for (const std::string& remark : table.remarks) WriteText(remark, out);
+}
+
+void ReadExtras(ByteReader* in, FileTable* table) {
+  const uint64_t count = in->VarintUpTo(kMostAttributes, "number of attributes");
+  for (uint64_t i = 0; i < count; ++i) {
+    VertexAttribute& attribute = table->schema.attributes.emplace_back();
+    attribute.name = ReadText(kLongestAttributeName, "length of an attribute's name", in);
+    const uint8_t type = in->U8();
+    if (type >= kScalarTypes) in->Fail("type of an attribute does not exist");
+    attribute.type = static_cast<ScalarType>(type);
+    AttributeRange& range = table->attribute_ranges.emplace_back();
+    const uint64_t largest = LargestOrdered(attribute.type);
+    range.least = in->VarintUpTo(largest, "least value of an attribute");
+    range.most = range.least + in->VarintUpTo(largest - range.least, "range of an attribute");
+  }
+  table->attribute_bits.resize(count, 0);
+  table->schema.before_position = in->VarintUpTo(count, "attributes before the position");
+  const uint64_t remarks = in->VarintUpTo(in->left(), "number of remarks");
+  if (remarks > kMostRemarkBytes) in->Fail("more remarks than 64 KiB can hold");
+  for (uint64_t i = 0; i < remarks; ++i) {
+    table->remarks.push_back(ReadText(kMostRemarkBytes, "length of a remark", in));
+  }
+  if (!table->HasExtras()) in->Fail("neither attributes nor remarks where they are announced");
+}
+
 void WriteMesh(const FileTable& table, ByteWriter* out) {
   out->Varint(table.vertices);
   out->Varint(table.faces);
   out->U8(table.coordinate_type);
   const bool is_short = HasShortOrigin(table);
-  out->U8(is_short ? 1 : 0);
+  out->U8(static_cast<uint8_t>((is_short ? kShortOrigin : 0) | (table.HasExtras() ? kExtras : 0)));
   for (const double origin : table.origin) {
     if (is_short) {
       out->F32(static_cast<float>(origin));
@@ -163,6 +212,7 @@ void WriteMesh(const FileTable& table, ByteWriter* out) {
   for (const int32_t extent : table.extent) out->Varint(static_cast<uint64_t>(extent));
   out->Varint(table.codec.size());
   out->Bytes(table.codec);
+  if (table.HasExtras()) WriteExtras(table, out);
   out->Varint(table.layers.size());
   out->Varint(table.subtrees.size());
   for (const SubtreeRecord& subtree : table.subtrees) WriteSubtree(subtree, out);
@@ -193,6 +243,7 @@ std::vector<CodedTable> EncodeTables(const FileTable& table) {
       out.U64(table.digest.vertices);
       out.U64(table.digest.faces);
       for (const uint64_t kind : table.kind_bits) out.Varint(kind);
+      for (const uint64_t bits_of_one : table.attribute_bits) out.Varint(bits_of_one);
     }
     tables[i] = {ends[i], std::move(out).Take()};
   }
@@ -213,6 +264,7 @@ void TableDecoder::Decode(std::span<const uint8_t> bytes, uint64_t offset) {
     table_.digest.vertices = in.U64();
     table_.digest.faces = in.U64();
     for (uint64_t& bits : table_.kind_bits) bits = in.Varint();
+    for (uint64_t& bits : table_.attribute_bits) bits = in.Varint();
   }
   if (in.left() > 0) in.Fail(std::to_string(in.left()) + " bytes after the end of the table");
   const std::string fault = TableFault(table_);
@@ -223,12 +275,13 @@ void TableDecoder::DecodeMesh(ByteReader* in) {
   table_.vertices = in->VarintUpTo(kMaxCount, "number of vertices");
   table_.faces = in->VarintUpTo(kMaxCount, "number of faces");
   table_.coordinate_type = in->U8();
-  const uint8_t is_short = in->U8();
-  if (is_short > 1) in->Fail("precision of the lattice's origin neither 0 nor 1");
+  const uint8_t flags = in->U8();
+  if (flags > (kShortOrigin | kExtras)) in->Fail("flags of the mesh that are not known");
+  const bool is_short = (flags & kShortOrigin) != 0;
   for (double& origin : table_.origin) {
-    origin = is_short == 1 ? static_cast<double>(in->F32()) : in->F64();
+    origin = is_short ? static_cast<double>(in->F32()) : in->F64();
   }
-  if (is_short == 0 && HasShortOrigin(table_)) {
+  if (!is_short && HasShortOrigin(table_)) {
     in->Fail("origin of the lattice longer than it need be");
   }
   table_.unit = in->F64();
@@ -237,6 +290,7 @@ void TableDecoder::DecodeMesh(ByteReader* in) {
   }
   const auto codec = in->Bytes(in->VarintUpTo(in->left(), "length of the coder's settings"));
   table_.codec.assign(codec.begin(), codec.end());
+  if ((flags & kExtras) != 0) ReadExtras(in, &table_);
   layers_total_ = in->VarintUpTo(kMaxLayers, "number of layers");
   const uint64_t subtrees = in->VarintUpTo(UINT32_MAX, "number of subtrees");
   if (subtrees * kLeastSubtreeBytes > in->left()) {

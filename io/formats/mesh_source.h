@@ -8,19 +8,10 @@
 #include <vector>
 
 #include "folprom/result.h"
+#include "io/formats/scalar_type.h"
+#include "io/formats/vertex_schema.h"
 
 namespace folprom::io {
-
-enum class ScalarType : uint8_t {
-  kInt8 = 0,
-  kUint8,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kFloat32,
-  kFloat64
-};
 
 /// Three vertex indices of the file, in the order of the file.
 using Triangle = std::array<uint64_t, 3>;
@@ -35,6 +26,7 @@ struct SourceNotes {
   uint64_t polygons_dropped = 0;       ///< faces of fewer than three corners
   uint64_t strips = 0;                 ///< triangle strips unrolled
   std::vector<std::string> ignored_properties;  ///< what else the file has, as its format calls it
+  uint64_t remarks_dropped = 0;                 ///< lines beyond kMostRemarkBytes, or not of text
 };
 
 /// A scan file, mapped into memory and parsed on demand. Thread-safe after Open: every Read may be
@@ -62,6 +54,23 @@ class MeshSource {
   /// Replaces *xyz by the block's positions, three doubles a vertex. kInput where a value does not
   /// parse. NaN and infinity are passed on, bit for bit (folprom/float_bits.h).
   virtual Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const = 0;
+
+  /// What else each vertex has; nothing in most formats.
+  virtual const VertexSchema& vertex_schema() const {
+    static const VertexSchema kNothing;
+    return kNothing;
+  }
+  /// Replaces *values by those of the block: vertex by vertex, for each the attributes in their
+  /// order, lowest byte first, every bit kept. kInput where a value does not parse.
+  virtual Result<void> ReadVertexAttributes(size_t /*block*/, std::vector<uint8_t>* values) const {
+    values->clear();
+    return {};
+  }
+  /// Lines of the header that say "comment" or "obj_info", whole.
+  virtual const std::vector<std::string>& remarks() const {
+    static const std::vector<std::string> kNone;
+    return kNone;
+  }
 
   virtual size_t triangle_block_count() const = 0;
   /// Replaces *triangles by the block's triangles (at most about 65,536, more only for one huge

@@ -7,18 +7,9 @@
 #include <cstring>
 
 #include "folprom/float_bits.h"
-#include "io/formats/mesh_source.h"
+#include "io/formats/scalar_type.h"
 
 namespace folprom::io {
-
-constexpr size_t ScalarSize(ScalarType type) {
-  constexpr size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<size_t>(type)];
-}
-
-constexpr bool IsFloat(ScalarType type) {
-  return type == ScalarType::kFloat32 || type == ScalarType::kFloat64;
-}
 
 /// Largest value of an unsigned type; 0 for the others.
 constexpr uint64_t UnsignedMax(ScalarType type) {

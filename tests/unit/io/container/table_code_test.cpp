@@ -367,8 +367,8 @@ TEST(TableCode, RejectsALatticeThatIsNone) {
   ExpectCorrupt(with_double(tolerance, -1), "tolerance");
   ExpectCorrupt(with_double(tolerance, nan), "tolerance");
   auto as_floats = bytes;
-  as_floats[5] = 2;
-  ExpectCorrupt(as_floats, "precision of the lattice's origin");
+  as_floats[5] = 4;
+  ExpectCorrupt(as_floats, "flags of the mesh");
   auto infinite = EncodeTable(ExampleTable());
   infinite[8] = 0x80;
   infinite[9] = 0x7f;

@@ -110,7 +110,8 @@ class DecodeJob {
  private:
   std::unique_ptr<io::MeshWriter> MakeWriter(uint64_t vertices, uint64_t faces) const {
     auto type = static_cast<io::ScalarType>(file_.table().coordinate_type);
-    return io::MeshWriter::Create(output_, {vertices, faces, type}, options_.overwrite).value();
+    const io::MeshShape shape{vertices, faces, type, file_.table().schema, file_.table().remarks};
+    return io::MeshWriter::Create(output_, shape, options_.overwrite).value();
   }
   static void Commit(io::MeshWriter& writer, DecodeReport* report) {
     writer.Commit().value();
@@ -137,7 +138,7 @@ class DecodeJob {
     std::array<double, 3> lo, hi;
     std::copy_n(options_.region_lo, 3, lo.begin());
     std::copy_n(options_.region_hi, 3, hi.begin());
-    RegionSink sink(file_.lattice(), lo, hi, spill);
+    RegionSink sink(file_.lattice(), lo, hi, file_.table().schema.Stride(), spill);
     Decode(sink);
     report->vertices = sink.vertices();
     report->faces = sink.faces();

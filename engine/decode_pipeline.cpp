@@ -10,16 +10,19 @@
 namespace folprom {
 namespace {
 
-/// Per vertex of a subtree: complex, cells and sets 560, results 60; exact positions twice.
-constexpr uint64_t kBytesPerVertex = 620, kExactBytesPerVertex = 48;
+/// Per vertex of a subtree: complex, cells and sets 560, results 60; exact positions twice; of each
+/// attribute 8 as it is coded, and twice what the scan has.
+constexpr uint64_t kBytesPerVertex = 620, kExactBytesPerVertex = 48, kAttributeBytesPerVertex = 24;
 
 /// How many subtrees may be under way or waiting for their turn.
 size_t WindowOf(const io::FileTable& table, const std::vector<uint32_t>& subtrees, bool has_rests,
                 uint64_t memory_bytes, int threads) {
   uint64_t largest = 1;
   for (uint32_t s : subtrees) largest = std::max<uint64_t>(largest, table.subtrees[s].vertices);
-  uint64_t per_vertex = kBytesPerVertex + (has_rests ? kExactBytesPerVertex : 0);
-  uint64_t fitting = memory_bytes / 2 / (largest * per_vertex);
+  uint64_t per_vertex = kBytesPerVertex + (has_rests ? kExactBytesPerVertex : 0) +
+                        kAttributeBytesPerVertex * table.schema.attributes.size();
+  const uint64_t models = table.schema.attributes.size() * AttributeCoder::kModelBytes;
+  uint64_t fitting = memory_bytes / 2 / (largest * per_vertex + models);
   return static_cast<size_t>(std::clamp<uint64_t>(fitting, 1, 3 * static_cast<uint64_t>(threads)));
 }
 
@@ -28,6 +31,7 @@ struct DecodedPart {
   std::vector<ExactPosition> exact;
   std::vector<Face> faces;
   std::vector<uint32_t> border_vertices;
+  std::vector<uint8_t> attributes;
 };
 
 class Pipeline {
@@ -73,7 +77,7 @@ class Pipeline {
         [&](size_t i) {
           if (IsWanted(needed_[i])) {
             sink_.AddSubtree({needed_[i], parts[i].positions, parts[i].exact, parts[i].faces,
-                              parts[i].border_vertices});
+                              parts[i].border_vertices, parts[i].attributes});
           }
           parts[i] = DecodedPart();
           progress_.Advance(table_.subtrees[needed_[i]].vertices);
@@ -87,6 +91,7 @@ class Pipeline {
     DecodedPart part;
     part.positions = reader.state().positions();
     part.exact = reader.state().exact_positions();
+    part.attributes = reader.state().Attributes();
     reader.state().AppendFaces(&part.faces);
     if (has_border_[subtree]) {
       part.border_vertices = reader.state().BorderVertices();

@@ -24,6 +24,8 @@ struct SubtreePart {
   std::span<const Face> faces;
   /// Vertex of each border set; by these sets the seams name their corners.
   std::span<const uint32_t> border_vertices;
+  /// Vertex by vertex as the scan has them; empty where the file has none.
+  std::span<const uint8_t> attributes = {};
 
   /// Model units.
   ExactPosition Position(const Lattice& lattice, size_t vertex) const {

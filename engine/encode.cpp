@@ -21,6 +21,7 @@ BitCounts BitsOf(const CostMeters& costs) {
   counts.exceptions = bits(costs.exceptions);
   counts.seams = bits(costs.seams);
   counts.rests = bits(costs.rests);
+  for (uint64_t cost : costs.attributes) counts.attributes += bits(cost);
   return counts;
 }
 
@@ -46,6 +47,11 @@ Result<EncodeReport> EncodeFile(const std::string& input, const std::string& out
     report.subtrees = table.subtrees.size();
     report.layers = table.layers.size();
     report.bits = BitsOf(job.costs());
+    for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
+      const io::VertexAttribute& attribute = table.schema.attributes[a];
+      report.attributes.push_back({attribute.name, static_cast<AttributeType>(attribute.type),
+                                   static_cast<double>(job.costs().attributes[a]) / 1024});
+    }
     report.warnings = job.Warnings();
     return report;
   });

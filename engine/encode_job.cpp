@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "engine/attributes/normal_names.h"
 #include "engine/codec/border_file.h"
 #include "engine/exact_resolution.h"
 #include "io/container/writer.h"
@@ -138,8 +139,9 @@ void EncodeJob::Partition() {
   settings.metric_b = options_.codec.metric_b;
   settings.normal_metric = options_.codec.subtree_normals;
   if (source_->vertex_count() > 0) {
-    scan_ = PartitionScan(*source_, resolution_.lattice, settings,
-                          WorkingBytes(options_.memory_bytes), runner_, *spill_, progress_);
+    scan_ =
+        PartitionScan(*source_, resolution_.lattice, settings, WorkingBytes(options_.memory_bytes),
+                      runner_, *spill_, progress_, KeepsAttributes());
   }
   source_->DropResident();
   outcomes_.resize(scan_ ? scan_->subtree_count() : 0);
@@ -147,6 +149,7 @@ void EncodeJob::Partition() {
   parameters_.settings = options_.codec;
   parameters_.extent = {extent[0], extent[1], extent[2]};
   parameters_.exact = resolution_.lattice.exact;
+  parameters_.attributes = SpansOfAttributes();
   uint32_t per_octave = options_.codec.steps_per_octave;
   double edge = TypicalEdge();
   Offsets offsets = options_.codec.offsets;
@@ -158,6 +161,22 @@ void EncodeJob::Partition() {
       parameters_.extent, per_octave, options_.codec.rounds_per_step,
       SplitLayersFor(parameters_.extent, edge, per_octave, offsets, first_steps, parted),
       RefineLayersFor(parameters_.extent, edge, per_octave, offsets), first_steps, parted);
+}
+
+bool EncodeJob::KeepsAttributes() const {
+  return options_.attributes && options_.codec.offsets == Offsets::kLattice;
+}
+
+std::vector<ValueSpan> EncodeJob::SpansOfAttributes() const {
+  std::vector<ValueSpan> spans;
+  if (!KeepsAttributes()) return spans;
+  const auto ranges = scan_ ? scan_->attribute_ranges() : std::span<const ValueRange>();
+  const io::VertexSchema& schema = source_->vertex_schema();
+  for (size_t a = 0; a < schema.attributes.size(); ++a) {
+    const ValueRange range = a < ranges.size() ? ranges[a] : ValueRange{0, 0};
+    spans.push_back({schema.attributes[a].type, range.least, range.most, NormalAxis(schema, a)});
+  }
+  return spans;
 }
 
 double EncodeJob::TypicalEdge() const {
@@ -292,7 +311,13 @@ io::FileTable EncodeJob::MakeTable() {
   table.extent = resolution_.lattice.extent;
   table.tolerance = resolution_.tolerance;
   table.codec = WriteParameters(parameters_);
+  if (KeepsAttributes()) table.schema = source_->vertex_schema();
+  if (options_.attributes) table.remarks = source_->remarks();
+  for (const ValueSpan& span : parameters_.attributes) {
+    table.attribute_ranges.push_back({span.least, span.most});
+  }
   costs_ = {};
+  costs_.attributes.resize(parameters_.attributes.size(), 0);
   for (size_t s = 0; s < outcomes_.size(); ++s) {
     const Outcome& outcome = outcomes_[s];
     const SubtreeSummary& summary = scan_->summary(s);
@@ -312,6 +337,7 @@ io::FileTable EncodeJob::MakeTable() {
                      costs_.connectivity.Sum() / 1024,
                      costs_.exceptions / 1024,
                      costs_.seams / 1024};
+  for (uint64_t cost : costs_.attributes) table.attribute_bits.push_back(cost / 1024);
   for (uint32_t layer : kept_layers_) {
     io::LayerRecord record;
     double distance = 0;
@@ -377,12 +403,20 @@ std::vector<std::string> EncodeJob::Warnings() const {
     warnings.push_back(count(notes.polygons_dropped, "face", "faces") +
                        " of fewer than three corners dropped");
   }
-  if (!notes.ignored_properties.empty()) {
-    std::string names;
-    for (const std::string& name : notes.ignored_properties) {
-      names += (names.empty() ? "" : ", ") + name;
+  std::vector<std::string> ignored = notes.ignored_properties;
+  if (!KeepsAttributes()) {
+    for (const io::VertexAttribute& attribute : source_->vertex_schema().attributes) {
+      ignored.push_back("vertex." + attribute.name);
     }
+  }
+  if (!ignored.empty()) {
+    std::string names;
+    for (const std::string& name : ignored) names += (names.empty() ? "" : ", ") + name;
     warnings.push_back("properties not kept: " + names);
+  }
+  if (options_.attributes && notes.remarks_dropped > 0) {
+    warnings.push_back(count(notes.remarks_dropped, "comment", "comments") +
+                       " dropped: more than 64 KiB, or not of text");
   }
   return warnings;
 }

@@ -65,6 +65,9 @@ class EncodeJob {
 
  private:
   void MeasureExactScan();
+  /// Are the attributes of vertices coded, if there are any.
+  bool KeepsAttributes() const;
+  std::vector<ValueSpan> SpansOfAttributes() const;
   /// What stays in memory of a subtree and its seam once their bits are spilled.
   struct Outcome {
     std::vector<uint32_t> inner_bytes, seam_bytes;  ///< per layer

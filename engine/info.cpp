@@ -30,6 +30,7 @@ void DescribeBits(const FolpFile& file, FileInfo* info) {
   info->has_bits = true;
   uint64_t kind_bits = 0, segment_bytes = 0;
   for (uint64_t bits : table.kind_bits) kind_bits += bits;
+  for (uint64_t bits : table.attribute_bits) kind_bits += bits;
   for (uint64_t bytes : table.segment_bytes) segment_bytes += bytes;
   auto rate = [&](io::BitKind kind) {
     double bits = static_cast<double>(table.kind_bits[static_cast<size_t>(kind)]);
@@ -79,6 +80,12 @@ Result<FileInfo> ReadInfo(const std::string& input) {
       info.box_hi[i] = lattice.ToModel(axis, lattice.extent[i]);
     }
     info.codec = file.parameters().settings;
+    for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
+      const io::VertexAttribute& attribute = table.schema.attributes[a];
+      info.attributes.push_back({attribute.name, static_cast<AttributeType>(attribute.type),
+                                 static_cast<double>(table.attribute_bits[a])});
+    }
+    info.remarks = table.remarks;
     DescribeLayers(file, &info);
     DescribeBits(file, &info);
     return info;

@@ -10,6 +10,25 @@
 
 namespace folprom {
 
+namespace {
+
+/// The attributes of a subtree's vertices behind those of the subtrees before it.
+void AppendAttributes(const std::vector<uint8_t>& rows, const io::VertexSchema& schema,
+                      std::vector<DecodedAttribute>* attributes) {
+  const size_t stride = schema.Stride();
+  size_t offset = 0;
+  for (size_t a = 0; a < schema.attributes.size(); ++a) {
+    const size_t size = io::ScalarSize(schema.attributes[a].type);
+    std::vector<uint8_t>& values = (*attributes)[a].values;
+    for (size_t i = offset; i < rows.size(); i += stride) {
+      values.insert(values.end(), &rows[i], &rows[i] + size);
+    }
+    offset += size;
+  }
+}
+
+}  // namespace
+
 struct MemoryDecoder::Impl {
   explicit Impl(io::ContainerReader opened)
       : container(std::move(opened)),
@@ -97,6 +116,9 @@ DecodedMesh MemoryDecoder::Mesh() const {
   const Lattice lattice = LatticeOf(table, impl_->parameters);
   DecodedMesh mesh;
   mesh.is_float = static_cast<io::ScalarType>(table.coordinate_type) == io::ScalarType::kFloat32;
+  for (const io::VertexAttribute& attribute : table.schema.attributes) {
+    mesh.attributes.push_back({attribute.name, static_cast<AttributeType>(attribute.type), {}});
+  }
   std::vector<uint64_t> base;
   std::vector<std::vector<uint32_t>> border;
   std::vector<Face> faces;
@@ -108,6 +130,7 @@ DecodedMesh MemoryDecoder::Mesh() const {
     for (const Int3& p : subtree.state().positions()) {
       if (exact.empty()) mesh.positions.push_back(lattice.ToModel(p));
     }
+    AppendAttributes(subtree.state().Attributes(), table.schema, &mesh.attributes);
     faces.clear();
     subtree.state().AppendFaces(&faces);
     for (const Face& f : faces) {

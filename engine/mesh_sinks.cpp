@@ -21,7 +21,7 @@ std::vector<T>& EntryFor(std::vector<std::vector<T>>& table, uint32_t subtree) {
 template <class Position>
 void AddPart(std::span<const Position> positions, const SubtreePart& part, io::MeshDigest* digest,
              std::vector<std::vector<Position>>* border) {
-  for (const Position& p : positions) AddVertex(digest, p);
+  AddVertices(digest, positions, part.attributes);
   for (const Face& f : part.faces) {
     AddFace(digest, positions[f[0]], positions[f[1]], positions[f[2]]);
   }
@@ -46,7 +46,7 @@ void FileSink::AddSubtree(const SubtreePart& part) {
     const ExactPosition xyz = part.Position(lattice_, v);
     xyz_.insert(xyz_.end(), xyz.begin(), xyz.end());
   }
-  writer_.AppendVertices(xyz_).value();
+  writer_.AppendVertices(xyz_, part.attributes).value();
   auto& border = EntryFor(border_, part.subtree);
   for (uint32_t vertex : part.border_vertices) border.push_back(vertices_ + vertex);
   for (const Face& f : part.faces) {
@@ -82,8 +82,12 @@ void FileSink::CheckComplete() const {
 }
 
 RegionSink::RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,
-                       const io::SpillDirectory& spill)
-    : lattice_(lattice), lo_(lo), hi_(hi), streams_(spill, "region", 2, uint64_t{1} << 20) {}
+                       size_t attribute_bytes, const io::SpillDirectory& spill)
+    : lattice_(lattice),
+      lo_(lo),
+      hi_(hi),
+      attribute_bytes_(attribute_bytes),
+      streams_(spill, "region", 3, uint64_t{1} << 20) {}
 
 void RegionSink::AddSubtree(const SubtreePart& part) {
   index_.assign(part.positions.size(), kOutside);
@@ -94,6 +98,9 @@ void RegionSink::AddSubtree(const SubtreePart& part) {
     if (!inside) continue;
     index_[v] = vertices_++;
     streams_.AppendValue(0, xyz);
+    if (attribute_bytes_ == 0) continue;
+    const auto values = part.attributes.subspan(v * attribute_bytes_, attribute_bytes_);
+    streams_.Append(2, values.data(), values.size());
   }
   auto& border = EntryFor(border_, part.subtree);
   for (uint32_t vertex : part.border_vertices) border.push_back(index_[vertex]);
@@ -117,12 +124,15 @@ void RegionSink::Keep(const io::Triangle& face) {
 
 void RegionSink::WriteTo(io::MeshWriter& writer) {
   streams_.Finish();
-  io::MappedFile positions = streams_.Map(0), faces = streams_.Map(1);
+  io::MappedFile positions = streams_.Map(0), faces = streams_.Map(1), others = streams_.Map(2);
   std::span<const double> xyz = io::MappedArray<double>(positions);
   std::span<const io::Triangle> triangles = io::MappedArray<io::Triangle>(faces);
-  constexpr size_t kStep = 3 * 65536;
-  for (size_t i = 0; i < xyz.size(); i += kStep) {
-    writer.AppendVertices(xyz.subspan(i, std::min(kStep, xyz.size() - i))).value();
+  constexpr size_t kStep = 65536;
+  for (size_t begin = 0; begin < vertices_; begin += kStep) {
+    const size_t count = std::min<size_t>(kStep, vertices_ - begin);
+    const auto attributes =
+        others.bytes().subspan(begin * attribute_bytes_, count * attribute_bytes_);
+    writer.AppendVertices(xyz.subspan(3 * begin, 3 * count), attributes).value();
   }
   for (size_t i = 0; i < triangles.size(); i += kFacesPerWrite) {
     writer.AppendFaces(triangles.subspan(i, std::min(kFacesPerWrite, triangles.size() - i)))

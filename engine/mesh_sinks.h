@@ -48,8 +48,9 @@ class FileSink final : public MeshSink {
 /// only at the end, so they wait in the spill.
 class RegionSink final : public MeshSink {
  public:
+  /// attribute_bytes: of a vertex.
   RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,
-             const io::SpillDirectory& spill);
+             size_t attribute_bytes, const io::SpillDirectory& spill);
   void AddSubtree(const SubtreePart& part) override;
   void AddSeam(std::span<const SeamFace> faces) override;
   uint64_t vertices() const { return vertices_; }
@@ -61,7 +62,8 @@ class RegionSink final : public MeshSink {
   void Keep(const io::Triangle& face);
   Lattice lattice_;
   std::array<double, 3> lo_, hi_;
-  io::SpillStreams streams_;  ///< 0: positions, 1: faces
+  size_t attribute_bytes_;
+  io::SpillStreams streams_;  ///< 0: positions, 1: faces, 2: attributes
   uint64_t vertices_ = 0, faces_ = 0;
   std::vector<std::vector<uint64_t>> border_;
   std::vector<uint64_t> index_;

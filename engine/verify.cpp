@@ -40,16 +40,18 @@ uint64_t HashFace(std::array<uint64_t, 3> face) {
   return io::XxHash64({reinterpret_cast<const uint8_t*>(best.data()), sizeof best});
 }
 
-/// Spills decoded positions, model units, and sums the faces by their decoded vertex indices.
+/// Spills decoded positions, model units, and attributes, and sums the faces by their decoded
+/// vertex indices.
 class MatchSink final : public MeshSink {
  public:
   MatchSink(const Lattice& lattice, const io::SpillDirectory& spill)
-      : digest(lattice), lattice_(lattice), positions_(spill, "decoded", 1, uint64_t{1} << 20) {}
+      : digest(lattice), lattice_(lattice), streams_(spill, "decoded", 2, uint64_t{1} << 20) {}
   void AddSubtree(const SubtreePart& part) override {
     digest.AddSubtree(part);
     std::vector<ExactPosition> xyz(part.positions.size());
     for (size_t v = 0; v < xyz.size(); ++v) xyz[v] = part.Position(lattice_, v);
-    positions_.Append(0, xyz.data(), xyz.size() * sizeof(ExactPosition));
+    streams_.Append(0, xyz.data(), xyz.size() * sizeof(ExactPosition));
+    streams_.Append(1, part.attributes.data(), part.attributes.size());
     base.push_back(vertices_);
     border_.emplace_back(part.border_vertices.begin(), part.border_vertices.end());
     for (const Face& f : part.faces) {
@@ -63,11 +65,11 @@ class MatchSink final : public MeshSink {
     for (const SeamFace& f : faces) face_sum += HashFace({index(f[0]), index(f[1]), index(f[2])});
   }
 
-  /// All positions, in the order of the decoded mesh. No part after it.
-  io::MappedFile MapPositions() {
-    positions_.Finish();
-    return positions_.Map(0);
-  }
+  /// No part after it.
+  void Finish() { streams_.Finish(); }
+  /// All of them, in the order of the decoded mesh.
+  io::MappedFile MapPositions() { return streams_.Map(0); }
+  io::MappedFile MapAttributes() { return streams_.Map(1); }
 
   DigestSink digest;
   std::vector<uint64_t> base;  ///< per subtree: its first vertex
@@ -75,7 +77,7 @@ class MatchSink final : public MeshSink {
 
  private:
   Lattice lattice_;
-  io::SpillStreams positions_;
+  io::SpillStreams streams_;  ///< 0: positions, 1: attributes
   uint64_t vertices_ = 0;
   std::vector<std::vector<uint32_t>> border_;
 };
@@ -102,6 +104,7 @@ class Comparison {
                        std::to_string(table.faces);
       return;
     }
+    if (!AreExtrasAlike(report)) return;
     job_.UseResolution({file_.lattice(), table.tolerance});
     job_.Partition();
     job_.EncodeSubtrees(true);
@@ -115,9 +118,12 @@ class Comparison {
     if (!AreSubtreesAlike(sink, report)) return;
     first_vertex_ = sink.base;
     order_ = job_.MapOrder();
+    sink.Finish();
     decoded_ = sink.MapPositions();
+    attributes_ = sink.MapAttributes();
     if (!IsOneToOne(report)) return;
     ComparePositions(report);
+    if (report->reason.empty()) CompareAttributes(report);
     if (report->reason.empty()) CompareFaces(sink.face_sum, report);
   }
 
@@ -126,9 +132,22 @@ class Comparison {
     EncodeOptions encode;
     encode.codec = file.parameters().settings;
     encode.exact = file.lattice().exact.has_value();
+    encode.attributes = false;  // they decide no order
     encode.memory_bytes = options.memory_bytes;
     encode.temporary_folder = options.temporary_folder;
     return encode;
+  }
+
+  /// What the file keeps beside positions and faces, by name and type.
+  bool AreExtrasAlike(VerifyReport* report) const {
+    const io::FileTable& table = file_.table();
+    const io::MeshSource& source = job_.source();
+    if (!table.schema.attributes.empty() && table.schema != source.vertex_schema()) {
+      report->reason = "the vertices of scan and file have other attributes";
+    } else if (!table.remarks.empty() && table.remarks != source.remarks()) {
+      report->reason = "the comments of scan and file differ";
+    }
+    return report->reason.empty();
   }
 
   /// Both with the subtrees of the table, so that one index finds a vertex in scan and mesh.
@@ -167,6 +186,7 @@ class Comparison {
   void DropResident() const {
     order_.DropResident();
     decoded_.DropResident();
+    attributes_.DropResident();
     job_.source().DropResident();
   }
 
@@ -214,6 +234,29 @@ class Comparison {
     }
   }
 
+  void CompareAttributes(VerifyReport* report) {
+    const io::VertexSchema& schema = file_.table().schema;
+    report->attributes = schema.attributes.size();
+    if (schema.attributes.empty()) return;
+    const io::MeshSource& source = job_.source();
+    const size_t blocks = source.vertex_block_count(), stride = schema.Stride();
+    std::atomic<bool> same = true;
+    progress_.StartStage("compare attributes", blocks);
+    runner_.ForEach(blocks, [&](size_t b) {
+      std::vector<uint8_t> values;
+      source.ReadVertexAttributes(b, &values).value();
+      const uint64_t first = source.vertex_block_begin(b);
+      for (size_t i = 0; i < values.size() / stride; ++i) {
+        const uint64_t vertex = FinalVertex(job_.scan().vertex_map()[first + i]);
+        const auto decoded = attributes_.bytes().subspan(vertex * stride, stride);
+        if (!std::equal(decoded.begin(), decoded.end(), &values[i * stride])) same = false;
+      }
+      if (b % 64 == 63) DropResident();
+      progress_.Advance(1);
+    });
+    if (!same) report->reason = "an attribute differs from that of the scan in its bits";
+  }
+
   void CompareFaces(uint64_t face_sum, VerifyReport* report) {
     const io::MeshSource& source = job_.source();
     std::atomic<uint64_t> sum{0};
@@ -242,7 +285,7 @@ class Comparison {
   parallel::Progress& progress_;
   EncodeJob job_;
   // One file each for all subtrees: a process may map 65,530.
-  io::MappedFile order_, decoded_;
+  io::MappedFile order_, decoded_, attributes_;
   std::vector<uint64_t> first_vertex_;  ///< of each subtree
 };
 

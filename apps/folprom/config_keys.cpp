@@ -74,6 +74,10 @@ std::vector<Key> EncodeKeys(EncodeConfig& config) {
        "positions come back bit for bit, whatever bits and tolerance are; needs offsets = "
        "\"lattice\"",
        ""},
+      {"encode", "attributes", &o.attributes,
+       "colours, normals, all scalars of vertices, and comments come back; needs offsets = "
+       "\"lattice\"",
+       ""},
       {"encode", "threads", &config.threads, "0: all; never alters the file", "threads", 0, 1024},
       {"encode", "memory", &o.memory_bytes, "resident size to stay below; never alters the file",
        "bytes, or a text such as \"2GiB\"", 1, kNoLimit},

@@ -35,6 +35,7 @@ struct EncodeFlags {
   std::optional<uint32_t> bits;
   std::optional<double> tolerance;
   bool exact = false;
+  bool no_attributes = false;
   std::optional<uint64_t> subtree_vertices;
   bool print_config = false;
   bool force = false;
@@ -53,6 +54,7 @@ EncodeConfig Settings(const EncodeFlags& flags) {
   if (flags.tolerance) options.tolerance = *flags.tolerance;
   if (flags.bits || flags.tolerance) options.exact = false;
   if (flags.exact) options.exact = true;
+  if (flags.no_attributes) options.attributes = false;
   if (flags.subtree_vertices) {
     // What does not fit is out of range in any case.
     options.codec.subtree_vertices =
@@ -78,7 +80,8 @@ Json BitsJson(const BitCounts& bits) {
           {"sides", bits.sides},
           {"exceptions", bits.exceptions},
           {"seams", bits.seams},
-          {"rests", bits.rests}};
+          {"rests", bits.rests},
+          {"attributes", bits.attributes}};
 }
 
 void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double seconds) {
@@ -97,6 +100,7 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
                {"layers", report.layers},
                {"spill_bytes", report.spill_bytes},
                {"bits", BitsJson(report.bits)},
+               {"attributes", AttributesJson(report.attributes, report.vertices)},
                {"warnings", report.warnings}});
   } else if (!flags.common.quiet) {
     Print(fmt::format(
@@ -151,6 +155,8 @@ Verb AddEncode(CLI::App& program) {
   verb->add_flag("--exact", flags->exact, "Positions come back bit for bit, NaN and all")
       ->excludes(bits)
       ->excludes(tolerance);
+  verb->add_flag("--no-attributes", flags->no_attributes,
+                 "Without colours, normals and what else vertices have, and without comments");
   verb->add_option("--effort", flags->effort,
                    "1 fastest .. 9 smallest file; wins over the settings, other flags over it")
       ->check(CLI::Range(1, 9))

@@ -95,6 +95,8 @@ Json InfoJson(const FileInfo& info) {
           {"box_lo", info.box_lo},
           {"box_hi", info.box_hi},
           {"bits_per_vertex_by_kind", kinds},
+          {"attributes", AttributesJson(info.attributes, info.has_bits ? info.vertices : 0)},
+          {"comments", info.remarks},
           {"table_bytes", info.table_bytes},
           {"checksum_bytes", info.checksum_bytes},
           {"flush_bytes", info.flush_bytes},
@@ -126,6 +128,17 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
   }
   fmt::format_to(out, "box {:.6g} {:.6g} {:.6g} .. {:.6g} {:.6g} {:.6g}\n", info.box_lo[0],
                  info.box_lo[1], info.box_lo[2], info.box_hi[0], info.box_hi[1], info.box_hi[2]);
+  for (const AttributeInfo& attribute : info.attributes) {
+    fmt::format_to(out, "{} {}", NameOf(attribute.type), attribute.name);
+    if (info.has_bits && info.vertices > 0) {
+      fmt::format_to(out, ": {:.3f} bits per vertex",
+                     attribute.bits / static_cast<double>(info.vertices));
+    }
+    fmt::format_to(out, "\n");
+  }
+  for (const std::string& remark : info.remarks) {
+    fmt::format_to(out, "{}\n", Printable(remark));
+  }
   if (info.has_bits) {
     fmt::format_to(out, "bits per vertex:");
     for (const Kind& kind : kKinds) {

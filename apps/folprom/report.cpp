@@ -31,6 +31,24 @@ Json DistanceJson(const DistanceStatistics& statistics, double diagonal) {
           {"max_relative", relative(statistics.max)}};
 }
 
+Json AttributesJson(std::span<const AttributeInfo> attributes, uint64_t vertices) {
+  Json list = Json::array();
+  for (const AttributeInfo& attribute : attributes) {
+    const Json bits =
+        vertices > 0 ? Json(attribute.bits / static_cast<double>(vertices)) : Json(nullptr);
+    list.push_back(
+        {{"name", attribute.name}, {"type", NameOf(attribute.type)}, {"bits_per_vertex", bits}});
+  }
+  return list;
+}
+
+std::string Printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
+  }
+  return text;
+}
+
 std::string Grouped(uint64_t number) {
   std::string text = std::to_string(number);
   for (size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
+#include "folprom/attribute.h"
 #include "folprom/measure.h"
 
 namespace folprom::cli {
@@ -19,6 +21,11 @@ void PrintJson(const Json& object);
 /// Mean, rms and max in model units and as parts of the diagonal, null for a single point, which
 /// has no size that a distance could be a part of.
 Json DistanceJson(const DistanceStatistics& statistics, double diagonal);
+
+/// Of each its name, its type and the bits spent on it per vertex; null for no vertices.
+Json AttributesJson(std::span<const AttributeInfo> attributes, uint64_t vertices);
+/// Text of a file, without what would garble a terminal.
+std::string Printable(std::string text);
 
 /// "1,234,567"
 std::string Grouped(uint64_t number);

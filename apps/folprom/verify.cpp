@@ -35,6 +35,7 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
                {"tolerance", report.tolerance},
                {"vertices", report.vertices},
                {"faces", report.faces},
+               {"attributes", report.attributes},
                {"reason", report.reason},
                {"seconds", seconds},
                {"peak_rss_bytes", PeakResidentBytes()}});
@@ -45,6 +46,9 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
     if (report.against) {
       text += fmt::format(", largest error {:.6g} against {}", report.max_position_error,
                           flags.original);
+      if (report.attributes > 0) {
+        text += fmt::format(", {} attributes equal", report.attributes);
+      }
     }
     Print(text + fmt::format("; {:.1f} s\n", seconds));
   }

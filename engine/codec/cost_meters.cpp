@@ -1,5 +1,7 @@
 #include "engine/codec/cost_meters.h"
 
+#include <algorithm>
+
 namespace folprom {
 
 CostMeters& CostMeters::operator+=(const CostMeters& other) {
@@ -15,6 +17,8 @@ CostMeters& CostMeters::operator+=(const CostMeters& other) {
   connectivity.connected += other.connectivity.connected;
   connectivity.pivots += other.connectivity.pivots;
   connectivity.sides += other.connectivity.sides;
+  attributes.resize(std::max(attributes.size(), other.attributes.size()), 0);
+  for (size_t a = 0; a < other.attributes.size(); ++a) attributes[a] += other.attributes[a];
   return *this;
 }
 

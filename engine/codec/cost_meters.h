@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "engine/connectivity/split_coder.h"
 #include "engine/geometry/offset_coder.h"
@@ -14,6 +15,7 @@ struct CostMeters {
   uint64_t split = 0, root = 0, refinement = 0, exceptions = 0, seams = 0, rests = 0;
   OffsetMeters offsets;
   SplitMeters connectivity;
+  std::vector<uint64_t> attributes;  ///< per attribute of the vertices; of the roots all in `root`
 
   CostMeters& operator+=(const CostMeters& other);
 };

@@ -52,10 +52,21 @@ void CheckBits(const SubtreeChunk& chunk, const std::vector<ExactPosition>& exac
   }
 }
 
+void CheckAttributes(const SubtreeChunk& chunk, const std::vector<uint8_t>& coded,
+                     const std::vector<uint32_t>& final_vertices) {
+  const size_t stride = chunk.attributes.size() / chunk.positions.size();
+  for (size_t i = 0; stride > 0 && i < chunk.positions.size(); ++i) {
+    const uint8_t* here = &coded[final_vertices[i] * stride];
+    if (std::memcmp(&chunk.attributes[i * stride], here, stride) != 0) {
+      throw Failure(ErrorKind::kInternal, "an attribute differs from that of the scan");
+    }
+  }
+}
+
 template <class Position>
-void Digest(std::span<const Position> positions, const std::vector<Face>& faces,
-            io::MeshDigest* digest) {
-  for (const Position& position : positions) AddVertex(digest, position);
+void Digest(std::span<const Position> positions, std::span<const uint8_t> attributes,
+            const std::vector<Face>& faces, io::MeshDigest* digest) {
+  AddVertices(digest, positions, attributes);
   for (const Face& f : faces) AddFace(digest, positions[f[0]], positions[f[1]], positions[f[2]]);
 }
 
@@ -76,8 +87,11 @@ SetTree BuildSetTree(const SubtreeChunk& chunk, uint32_t subtree,
 
 uint64_t EncodeSubtreeBytes(const SubtreeSummary& summary, const CodecParameters& parameters) {
   // Per vertex: tree and points 220, complex and cells 560, exact positions as read, as coded and
-  // at the border 72. Per face: oracle and chunk 110.
-  return (uint64_t{1} << 20) + uint64_t{summary.vertices} * (parameters.exact ? 852 : 780) +
+  // at the border 72, of each attribute 8 and twice what the file has. Per face: oracle and chunk
+  // 110.
+  const uint64_t per_vertex = (parameters.exact ? 852 : 780) + 24 * parameters.attributes.size();
+  const uint64_t models = parameters.attributes.size() * AttributeCoder::kModelBytes;
+  return (uint64_t{1} << 20) + models + uint64_t{summary.vertices} * per_vertex +
          (summary.faces + summary.cross_faces) * 110;
 }
 
@@ -96,6 +110,7 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
   BitEncoder bits;
   EncodedSubtree result;
   result.meters = meters;
+  result.meters.attributes.resize(parameters.attributes.size(), 0);
   for (uint32_t layer = 0; layer < parameters.schedule.layers(); ++layer) {
     const uint64_t before = bits.decisions();
     const std::vector<Int3> positions = coder.positions();
@@ -114,12 +129,14 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
   const std::vector<Int3>& positions = coder.positions();
   const std::vector<ExactPosition> exact = ExactPositionsOf(coder, parameters);
   CheckBits(chunk, exact, result.final_vertices);
+  const std::vector<uint8_t> attributes = coder.Attributes();
+  CheckAttributes(chunk, attributes, result.final_vertices);
   std::vector<Face> faces;
   coder.AppendFaces(&faces);
   if (parameters.exact) {
-    Digest<ExactPosition>(exact, faces, &result.digest);
+    Digest<ExactPosition>(exact, attributes, faces, &result.digest);
   } else {
-    Digest<Int3>(positions, faces, &result.digest);
+    Digest<Int3>(positions, attributes, faces, &result.digest);
   }
 
   result.border = coder.border();

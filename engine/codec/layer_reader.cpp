@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/attributes/normal_names.h"
 #include "io/formats/mesh_source.h"
 
 namespace folprom {
@@ -56,6 +57,14 @@ CodecParameters ParametersOf(const io::FileTable& table, size_t layers_total) {
   CodecParameters parameters =
       ReadParameters(table.codec, {table.extent[0], table.extent[1], table.extent[2]});
   if (parameters.exact) CompleteExact(table, &*parameters.exact);
+  for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
+    const io::AttributeRange& range = table.attribute_ranges[a];
+    parameters.attributes.push_back(
+        {table.schema.attributes[a].type, range.least, range.most, NormalAxis(table.schema, a)});
+  }
+  if (!parameters.attributes.empty() && parameters.settings.offsets != Offsets::kLattice) {
+    throw Failure(ErrorKind::kCorrupt, "attributes in a file of other offsets than the lattice's");
+  }
   if (parameters.schedule.layers() != layers_total) {
     throw Failure(ErrorKind::kCorrupt, "the coder's settings announce " +
                                            std::to_string(parameters.schedule.layers()) +

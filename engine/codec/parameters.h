@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/attributes/value_model.h"
 #include "engine/codec/layer_schedule.h"
 #include "engine/connectivity/split_coder.h"
 #include "engine/entropy/initial_statistics.h"
@@ -24,6 +25,7 @@ struct CodecParameters {
   Int3 extent;
   LayerSchedule schedule;
   std::optional<ExactLattice> exact;  ///< positions are coded bit for bit
+  std::vector<ValueSpan> attributes;  ///< of the vertices, Offsets::kLattice only
   /// Other statistics than InitialStatistics::Trained, while those are made.
   const InitialStatistics* statistics = nullptr;
 

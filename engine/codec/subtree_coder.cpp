@@ -51,6 +51,7 @@ SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape
   } else {
     cylinder_children_.emplace(parameters.offsets(), parameters.children(), parameters.extent);
   }
+  if (!parameters.attributes.empty()) attributes_.emplace(parameters.attributes);
   if (const InitialStatistics* start = parameters.start()) {
     StatisticsLoader loader(*start);
     Visit(loader);
@@ -121,6 +122,11 @@ void SubtreeCoder::CodeRoot(Coder& coder, SubtreeTruth* truth) {
   lattice_coder_->AddExact();
   if (coder.Code(32768, Coder::kEncoding && truth->OnGrid())) {
     grid_.emplace(shape_.box_lo, shape_.box_hi);
+  }
+  if (attributes_) {
+    const uint8_t* values = nullptr;
+    if constexpr (Coder::kEncoding) values = truth->Attributes(0);
+    attributes_->CodeRoot(coder, values);
   }
 }
 
@@ -215,6 +221,12 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, const GridHint& hin
       CodeBinarySplit(coder, set, kept, position, hint.found ? &hint : nullptr, truth, meters);
   if constexpr (Coder::kEncoding) truth->EndBinarySplit(added);
   if (grid_) grid_->AddSplit(set, added, hint.found ? split_coder_.last_kind() : uint8_t{0});
+  if (attributes_) {
+    const uint8_t* values = nullptr;
+    if constexpr (Coder::kEncoding) values = truth->Attributes(added);
+    attributes_->CodeNew(coder, {lod_.complex, lod_.positions, added, set}, values,
+                         meters->attributes.empty() ? nullptr : &meters->attributes);
+  }
   for (uint32_t child : {set, added}) {
     lod_.sets[child].scale = Distance(position, kept);
     lod_.sets[child].spacing = SetRecord::kUnmeasured;

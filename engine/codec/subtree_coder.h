@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/attributes/attribute_coder.h"
 #include "engine/codec/border_coder.h"
 #include "engine/codec/cost_meters.h"
 #include "engine/codec/cylinder_children.h"
@@ -52,6 +53,10 @@ class SubtreeCoder {
   const std::vector<ExactPosition>& exact_positions() const { return exact_positions_; }
   const Complex& complex() const { return lod_.complex; }
   const BorderRecord& border() const { return border_.record(); }
+  /// Of the vertices of the LOD, vertex by vertex as the file has them; empty without any.
+  std::vector<uint8_t> Attributes() const {
+    return attributes_ ? attributes_->Values() : std::vector<uint8_t>();
+  }
   /// Number of the border set that the vertex stands for, kNone when it touches no other subtree.
   uint32_t BorderOf(uint32_t vertex) const { return lod_.sets[vertex].border; }
   /// The vertex of each border set of the current LOD.
@@ -134,6 +139,7 @@ class SubtreeCoder {
   std::optional<LatticeCoder> lattice_coder_;
   std::optional<CylinderChildren> cylinder_children_;
   std::optional<GridCoder> grid_;
+  std::optional<AttributeCoder> attributes_;
   PrecisionCoder precision_;
   DueCoder due_;
   LeafModel leaf_model_;

@@ -34,6 +34,8 @@ class SubtreeTruth : public RestTruth {
   virtual void EndBinarySplit(uint32_t second_set) = 0;
   /// Position of the only vertex of a set.
   virtual Int3 VertexPosition(uint32_t set) const = 0;
+  /// Attributes of the vertex that stands for a set of its own node, as the file has them.
+  virtual const uint8_t* Attributes(uint32_t set) const = 0;
   /// How coarse positions may be, at most `coarsest` bits, while the `open` sets are not split.
   virtual LatticePrecision Precision(const Complex& complex, std::span<const uint32_t> open,
                                      uint32_t coarsest) const = 0;

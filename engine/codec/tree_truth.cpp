@@ -48,6 +48,7 @@ TreeTruth::TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree&
       tree_(tree),
       parameters_(parameters),
       real_faces_(chunk.faces.size()),
+      stride_(chunk.attributes.size() / std::max<size_t>(chunk.positions.size(), 1)),
       place_(PlacesIn(tree.order())),
       oracle_(static_cast<uint32_t>(place_.size()), InnerTriples(chunk, subtree, place_)) {
   all_places_.resize(place_.size());
@@ -125,6 +126,11 @@ void TreeTruth::EndBinarySplit(uint32_t second_set) {
 
 Int3 TreeTruth::VertexPosition(uint32_t set) const {
   return tree_.node(node_of_set_[set]).representative;
+}
+
+const uint8_t* TreeTruth::Attributes(uint32_t set) const {
+  // The vertex that stands for a set is its first (MergeTree::Flatten).
+  return chunk_.attributes.data() + tree_.VerticesOf(node_of_set_[set])[0] * stride_;
 }
 
 CoordinateRest TreeTruth::Rest(uint32_t set, size_t axis) const {

@@ -34,6 +34,7 @@ class TreeTruth final : public SubtreeTruth {
   bool SecondTouchesBorder() const override { return second_border_; }
   void EndBinarySplit(uint32_t second_set) override;
   Int3 VertexPosition(uint32_t set) const override;
+  const uint8_t* Attributes(uint32_t set) const override;
   LatticePrecision Precision(const Complex& complex, std::span<const uint32_t> open,
                              uint32_t coarsest) const override {
     return ChoosePrecision(complex, *this, open, coarsest);
@@ -56,6 +57,7 @@ class TreeTruth final : public SubtreeTruth {
   const SetTree& tree_;
   const CodecParameters& parameters_;
   size_t real_faces_;
+  size_t stride_;  ///< bytes of the attributes of a vertex
   // The oracle numbers vertices by their place in tree.order().
   std::vector<uint32_t> place_, all_places_;
   SplitOracle oracle_;

@@ -35,6 +35,26 @@ inline double FastLog(double x) {
   return exponent * 0.69314718 + 2 * y * (1 + s * (0.33333333 + s * (0.2 + s * 0.14285714)));
 }
 
+/// e^((at - mean) / scale), bounded: what LogisticOdds wants of a logistic density at an end.
+inline double LogisticPower(double at, double mean, double scale) {
+  return FastExp2(1.44269504 * std::clamp((at - mean) / scale, -40.0, 40.0));
+}
+
+/// Part of a density that is never impossible.
+inline constexpr double kLeastPart = 1e-17;
+
+/// ln(high / low) in 1/256.
+inline int32_t LogOdds(double high, double low) {
+  return static_cast<int32_t>(std::clamp(256 * FastLog(high / low), -2047.0, 2047.0));
+}
+/// ln of the odds of [here, last) against [first, here), in 1/256, of a logistic density, by the
+/// powers at these ends. Between powers f and g lies (g - f) / ((1 + f) (1 + g)) of it.
+inline int32_t LogisticOdds(double first, double here, double last) {
+  const double from = 1 + first, to = 1 + last;
+  const double least = kLeastPart * from * (1 + here) * to;
+  return LogOdds(std::max((last - here) * from, least), std::max((here - first) * to, least));
+}
+
 }  // namespace detail
 
 /// A prediction in units of cells: cell k covers [k, k + 1).
@@ -136,24 +156,13 @@ class CellModel {
                    int64_t at) {
     End end{{}, 0};
     for (size_t p = 0; p < P; ++p) {
-      const double t = (static_cast<double>(at) - predictions[p].mean) / predictions[p].scale;
-      end.power[p] = detail::FastExp2(1.44269504 * std::clamp(t, -40.0, 40.0));
+      end.power[p] =
+          detail::LogisticPower(static_cast<double>(at), predictions[p].mean, predictions[p].scale);
     }
     if (M > 0 && density.axis != nullptr) {
       end.below = density.axis->Below(density.cell * static_cast<double>(at) - density.origin);
     }
     return end;
-  }
-
-  static int32_t LogOdds(double high, double low) {
-    return static_cast<int32_t>(std::clamp(256 * detail::FastLog(high / low), -2047.0, 2047.0));
-  }
-  /// ln of the odds of [at, c) against [a, at), in 1/256. Between ends with powers f and g lies
-  /// (g - f) / ((1 + f) (1 + g)) of a logistic density.
-  static int32_t LogisticOdds(double first, double here, double last) {
-    const double from = 1 + first, to = 1 + last;
-    const double least = kLeast * from * (1 + here) * to;
-    return LogOdds(std::max((last - here) * from, least), std::max((here - first) * to, least));
   }
 
   /// Is value >= at; narrows the interval.
@@ -167,11 +176,11 @@ class CellModel {
     const End &first = interval->first, &last = interval->last;
     std::array<int32_t, P + M> inputs{};
     for (size_t p = 0; p < P; ++p) {
-      inputs[p] = LogisticOdds(first.power[p], here.power[p], last.power[p]);
+      inputs[p] = detail::LogisticOdds(first.power[p], here.power[p], last.power[p]);
     }
     if (M > 0 && interval->density->axis != nullptr) {
-      inputs[P + M - 1] = LogOdds(std::max(last.below - here.below, kLeast),
-                                  std::max(here.below - first.below, kLeast));
+      inputs[P + M - 1] = detail::LogOdds(std::max(last.below - here.below, detail::kLeastPart),
+                                          std::max(here.below - first.below, detail::kLeastPart));
     }
     std::array<uint32_t, N> scaled;
     for (size_t i = 0; i < N; ++i) scaled[i] = contexts[i] * kSlots + slot;
@@ -186,8 +195,6 @@ class CellModel {
     return upper;
   }
 
-  /// Part of a density that is never impossible.
-  static constexpr double kLeast = 1e-17;
   MixedModel<N, P + M> decisions_;
 };
 

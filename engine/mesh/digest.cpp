@@ -2,6 +2,8 @@
 
 #include <array>
 #include <bit>
+#include <cstring>
+#include <vector>
 
 #include "io/container/checksum.h"
 
@@ -25,7 +27,34 @@ uint64_t HashFace(const Point& a, const Point& b, const Point& c) {
   return Hash(best);
 }
 
+/// Position and attributes of a vertex are hashed as one run of bytes.
+template <class Point>
+void AddEach(io::MeshDigest* digest, std::span<const Point> positions,
+             std::span<const uint8_t> attributes) {
+  if (attributes.empty()) {
+    for (const Point& position : positions) AddVertex(digest, position);
+    return;
+  }
+  const size_t stride = attributes.size() / positions.size();
+  std::vector<uint8_t> bytes(sizeof(Point) + stride);
+  for (size_t v = 0; v < positions.size(); ++v) {
+    std::memcpy(bytes.data(), &positions[v], sizeof(Point));
+    std::memcpy(bytes.data() + sizeof(Point), &attributes[v * stride], stride);
+    digest->vertices += io::XxHash64(bytes);
+  }
+}
+
 }  // namespace
+
+void AddVertices(io::MeshDigest* digest, std::span<const Int3> positions,
+                 std::span<const uint8_t> attributes) {
+  AddEach(digest, positions, attributes);
+}
+
+void AddVertices(io::MeshDigest* digest, std::span<const ExactPosition> positions,
+                 std::span<const uint8_t> attributes) {
+  AddEach(digest, positions, attributes);
+}
 
 void AddVertex(io::MeshDigest* digest, const Int3& position) {
   digest->vertices += Hash(std::array<Int3, 1>{position});

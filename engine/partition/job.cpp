@@ -15,7 +15,10 @@ uint32_t VoxelVertexLimit(const PartitionSettings& settings) {
 }
 
 size_t Job::Window() const {
-  const uint64_t affordable = std::max<uint64_t>(memory_bytes / 8 / kBlockBytes, 1);
+  // Attributes as they are read, and by subtree.
+  const size_t stride = with_attributes ? source.vertex_schema().Stride() : 0;
+  const uint64_t block_bytes = kBlockBytes + 2 * io::kBlockVertices * stride;
+  const uint64_t affordable = std::max<uint64_t>(memory_bytes / 8 / block_bytes, 1);
   const uint64_t useful = 2 * static_cast<uint64_t>(runner.threads()) + 2;
   return static_cast<size_t>(std::min(affordable, useful));
 }

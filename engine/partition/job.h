@@ -24,6 +24,7 @@ struct Job {
   const io::MeshSource& source;
   const Lattice& lattice;
   const PartitionSettings& settings;
+  const bool with_attributes;
   const uint64_t memory_bytes;
   parallel::Runner& runner;
   const io::SpillDirectory& spill;

@@ -27,7 +27,7 @@ class SpilledScan final : public PartitionedScan {
  public:
   /// with_exact: keep the coordinates of the scan beside those on the lattice.
   SpilledScan(const io::SpillDirectory& spill, std::vector<SubtreeSummary> subtrees,
-              uint64_t memory_bytes, bool with_exact)
+              uint64_t memory_bytes, bool with_exact, bool with_attributes)
       : subtrees_(std::move(subtrees)),
         positions_(spill, "partition.positions", subtrees_.size(),
                    BufferBytes(subtrees_.size(), memory_bytes)),
@@ -35,18 +35,22 @@ class SpilledScan final : public PartitionedScan {
                BufferBytes(subtrees_.size(), memory_bytes / 2)),
         cross_faces_(spill, "partition.cross", subtrees_.size(),
                      BufferBytes(subtrees_.size(), memory_bytes / 2)) {
-    if (!with_exact) return;
-    exact_.emplace(spill, "partition.exact", subtrees_.size(),
-                   BufferBytes(subtrees_.size(), memory_bytes));
+    const uint64_t buffers = BufferBytes(subtrees_.size(), memory_bytes);
+    if (with_exact) exact_.emplace(spill, "partition.exact", subtrees_.size(), buffers);
+    if (with_attributes) {
+      attributes_.emplace(spill, "partition.attributes", subtrees_.size(), buffers);
+    }
   }
 
   /// The two scatter passes.
   void Fill(Job& job, const OffsetFile& records, std::span<const uint32_t> subtree_of_voxel) {
     OffsetFile refs(job.spill, "partition.vertex_map");
-    ScatterVertices(job, records, subtree_of_voxel, subtrees_.size(), refs, positions_,
-                    exact_ ? &*exact_ : nullptr);
+    const VertexStreams streams{&positions_, exact_ ? &*exact_ : nullptr,
+                                attributes_ ? &*attributes_ : nullptr};
+    ranges_ = ScatterVertices(job, records, subtree_of_voxel, subtrees_.size(), refs, streams);
     positions_.Finish();
     if (exact_) exact_->Finish();
+    if (attributes_) attributes_->Finish();
     vertex_map_ = refs.Map();
     ScatterFaces(job, records.Map(), vertex_map_, faces_, cross_faces_, subtrees_);
     faces_.Finish();
@@ -67,12 +71,17 @@ class SpilledScan final : public PartitionedScan {
     chunk.cross_faces = io::MappedArray<CrossFace>(chunk.storage[2]);
     if (exact_) {
       chunk.storage.push_back(exact_->Map(subtree));
-      chunk.exact = io::MappedArray<ExactPosition>(chunk.storage[3]);
+      chunk.exact = io::MappedArray<ExactPosition>(chunk.storage.back());
+    }
+    if (attributes_) {
+      chunk.storage.push_back(attributes_->Map(subtree));
+      chunk.attributes = chunk.storage.back().bytes();
     }
     return chunk;
   }
 
   uint64_t peak_spill_bytes() const override { return peak_spill_bytes_; }
+  std::span<const ValueRange> attribute_ranges() const override { return ranges_; }
 
   std::span<const VertexRef> vertex_map() const override {
     return io::MappedArray<VertexRef>(vertex_map_);
@@ -83,7 +92,8 @@ class SpilledScan final : public PartitionedScan {
   io::SpillStreams positions_;
   io::SpillStreams faces_;
   io::SpillStreams cross_faces_;
-  std::optional<io::SpillStreams> exact_;
+  std::optional<io::SpillStreams> exact_, attributes_;
+  std::vector<ValueRange> ranges_;
   io::MappedFile vertex_map_;
   uint64_t peak_spill_bytes_ = 0;
 };
@@ -102,7 +112,7 @@ std::unique_ptr<PartitionedScan> Run(Job& job) {
 
   const bool with_exact = job.lattice.exact && job.lattice.exact->step.has_rests;
   auto scan = std::make_unique<SpilledScan>(job.spill, std::move(split.subtrees), job.memory_bytes,
-                                            with_exact);
+                                            with_exact, job.with_attributes);
   scan->Fill(job, records, split.subtree);
   records.Remove();
   return scan;
@@ -115,11 +125,13 @@ std::unique_ptr<PartitionedScan> PartitionScan(const io::MeshSource& source, con
                                                const PartitionSettings& settings,
                                                uint64_t memory_bytes, parallel::Runner& runner,
                                                const io::SpillDirectory& spill,
-                                               parallel::Progress& progress) {
+                                               parallel::Progress& progress, bool with_attributes) {
   if (settings.subtree_vertices == 0) {
     throw Failure(ErrorKind::kUsage, "subtree_vertices must be at least 1");
   }
-  partition::Job job{source, lattice, settings, memory_bytes, runner, spill, progress};
+  with_attributes &= !source.vertex_schema().attributes.empty();
+  partition::Job job{source,       lattice, settings, with_attributes,
+                     memory_bytes, runner,  spill,    progress};
   return partition::Run(job);
 }
 

@@ -24,6 +24,13 @@ struct PartitionSettings {
   bool normal_metric = true;           ///< false: Euclidean distance only
 };
 
+/// Least and largest value of an attribute, as ordered numbers (engine/attributes/value.h). Least
+/// is above largest where there is no vertex.
+struct ValueRange {
+  uint64_t least = ~uint64_t{0};
+  uint64_t most = 0;
+};
+
 /// One subtree, mapped from the spill. Valid while the object lives.
 struct SubtreeChunk {
   std::span<const Int3> positions;         ///< vertices in the order of the input file
@@ -31,6 +38,8 @@ struct SubtreeChunk {
   std::span<const CrossFace> cross_faces;  ///< faces that touch it and another one
   std::vector<io::MappedFile> storage;
   std::span<const ExactPosition> exact = {};  ///< as in the input, where the lattice leaves rests
+  /// Vertex by vertex as the source gives them, where they are kept.
+  std::span<const uint8_t> attributes = {};
 };
 
 struct SubtreeSummary {
@@ -51,6 +60,8 @@ class PartitionedScan {
   virtual SubtreeChunk Load(size_t subtree) const = 0;
   /// Bytes that the spill folder held before the passes removed what only they need.
   virtual uint64_t peak_spill_bytes() const = 0;
+  /// Of each attribute of the source, where they are kept.
+  virtual std::span<const ValueRange> attribute_ranges() const = 0;
   /// Input vertex index -> (subtree, local); mapped, in the order of the file.
   virtual std::span<const VertexRef> vertex_map() const = 0;
 };
@@ -63,10 +74,12 @@ Bounds MeasureBounds(const io::MeshSource& source, parallel::Runner& runner,
 /// Passes 1-3 of the design: voxel statistics (OpenVDB), Lloyd split of the weighted voxels with
 /// the metric of section 2.1, scatter into chunks. The result depends on the scan and the settings
 /// only: not on threads, not on `memory_bytes`, which bounds buffers and resident pages.
+/// with_attributes: the chunks have those of the source.
 std::unique_ptr<PartitionedScan> PartitionScan(const io::MeshSource& source, const Lattice& lattice,
                                                const PartitionSettings& settings,
                                                uint64_t memory_bytes, parallel::Runner& runner,
                                                const io::SpillDirectory& spill,
-                                               parallel::Progress& progress);
+                                               parallel::Progress& progress,
+                                               bool with_attributes = false);
 
 }  // namespace folprom

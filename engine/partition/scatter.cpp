@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/attributes/value.h"
 #include "engine/partition/block_pool.h"
 #include "engine/partition/subtree_groups.h"
 
@@ -24,6 +25,10 @@ struct VertexBlock {
   SubtreeGroups<Int3> positions;
   std::vector<double> xyz;
   SubtreeGroups<ExactPosition> exact;
+  std::vector<uint8_t> attributes;
+  SubtreeGroups<uint32_t> places;  // in the block, of the vertices
+  std::vector<uint8_t> sorted_attributes;
+  std::vector<ValueRange> ranges;
 };
 
 // A cross face and the subtrees that it touches: two or three different ones, ascending.
@@ -137,11 +142,49 @@ void CollectExact(Job& job, size_t index, size_t subtree_count, VertexBlock* blo
   block->exact.Sort();
 }
 
+// The attributes of the block as the scan has them, by subtree, and their ranges.
+void CollectAttributes(Job& job, size_t index, size_t subtree_count, VertexBlock* block) {
+  const io::VertexSchema& schema = job.source.vertex_schema();
+  const size_t stride = schema.Stride();
+  job.source.ReadVertexAttributes(index, &block->attributes).value();
+  block->ranges.assign(schema.attributes.size(), {});
+  size_t offset = 0;
+  for (size_t a = 0; a < schema.attributes.size(); ++a) {
+    const io::ScalarType type = schema.attributes[a].type;
+    ValueRange& range = block->ranges[a];
+    for (size_t i = offset; i < block->attributes.size(); i += stride) {
+      const uint64_t value = OrderedOf(type, &block->attributes[i]);
+      range.least = std::min(range.least, value);
+      range.most = std::max(range.most, value);
+    }
+    offset += io::ScalarSize(type);
+  }
+  block->places.Start(subtree_count, block->refs.size());
+  for (uint32_t i = 0; i < block->refs.size(); ++i) block->places.Add(block->refs[i].subtree, i);
+  block->places.Sort();
+}
+
+void AppendAttributes(VertexBlock* block, size_t stride, io::SpillStreams& streams) {
+  for (const uint32_t subtree : block->places.subtrees()) {
+    std::vector<uint8_t>& sorted = block->sorted_attributes;
+    sorted.clear();
+    for (const uint32_t place : block->places.Items(subtree)) {
+      const auto begin = block->attributes.begin() + static_cast<std::ptrdiff_t>(place * stride);
+      sorted.insert(sorted.end(), begin, begin + static_cast<std::ptrdiff_t>(stride));
+    }
+    streams.Append(subtree, sorted.data(), sorted.size());
+  }
+}
+
 }  // namespace
 
-void ScatterVertices(Job& job, const OffsetFile& records,
-                     std::span<const uint32_t> subtree_of_voxel, size_t subtree_count,
-                     OffsetFile& vertex_map, io::SpillStreams& positions, io::SpillStreams* exact) {
+std::vector<ValueRange> ScatterVertices(Job& job, const OffsetFile& records,
+                                        std::span<const uint32_t> subtree_of_voxel,
+                                        size_t subtree_count, OffsetFile& vertex_map,
+                                        const VertexStreams& streams) {
+  const size_t stride = job.source.vertex_schema().Stride();
+  std::vector<ValueRange> ranges;
+  if (streams.attributes != nullptr) ranges.resize(job.source.vertex_schema().attributes.size());
   BlockPool<VertexBlock> pool;
   std::vector<uint32_t> next_local(subtree_count);
   const auto produce = [&](size_t index) {
@@ -158,14 +201,20 @@ void ScatterVertices(Job& job, const OffsetFile& records,
       block.refs[i] = {subtree, block.positions.Add(subtree, record.position)};
     }
     block.positions.Sort();
-    if (exact != nullptr) CollectExact(job, index, subtree_count, &block);
+    if (streams.exact != nullptr) CollectExact(job, index, subtree_count, &block);
+    if (streams.attributes != nullptr) CollectAttributes(job, index, subtree_count, &block);
   };
   const auto consume = [&](size_t index) {
     VertexBlock& block = pool.At(index);
     for (VertexRef& ref : block.refs) ref.local += next_local[ref.subtree];
     vertex_map.WriteRecords<VertexRef>(job.source.vertex_block_begin(index), block.refs);
-    AppendGroups(block.positions, positions);
-    if (exact != nullptr) AppendGroups(block.exact, *exact);
+    AppendGroups(block.positions, *streams.positions);
+    if (streams.exact != nullptr) AppendGroups(block.exact, *streams.exact);
+    if (streams.attributes != nullptr) AppendAttributes(&block, stride, *streams.attributes);
+    for (size_t a = 0; a < ranges.size(); ++a) {
+      ranges[a].least = std::min(ranges[a].least, block.ranges[a].least);
+      ranges[a].most = std::max(ranges[a].most, block.ranges[a].most);
+    }
     for (uint32_t subtree : block.positions.subtrees()) {
       next_local[subtree] += static_cast<uint32_t>(block.positions.Items(subtree).size());
     }
@@ -174,6 +223,7 @@ void ScatterVertices(Job& job, const OffsetFile& records,
     job.progress.Advance(count);
   };
   job.runner.Ordered(job.source.vertex_block_count(), job.Window(), produce, consume);
+  return ranges;
 }
 
 void ScatterFaces(Job& job, const io::MappedFile& records, const io::MappedFile& vertex_map,

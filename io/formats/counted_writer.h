@@ -14,16 +14,21 @@ namespace folprom::io {
 /// Sees that what comes is what was announced. The functions below may throw Failure.
 class CountedWriter : public MeshWriter {
  public:
-  Result<void> AppendVertices(std::span<const double> xyz) final;
+  Result<void> AppendVertices(std::span<const double> xyz,
+                              std::span<const uint8_t> attributes) final;
   Result<void> AppendFaces(std::span<const Triangle> faces) final;
   Result<void> Commit() final;
-  std::vector<std::string> Warnings() const override { return {}; }
+  /// Names the attributes, and counts the remarks, of a format that holds none.
+  std::vector<std::string> Warnings() const override;
 
  protected:
   CountedWriter(const std::string& path, const MeshShape& shape, bool force);
 
-  virtual void WriteVertices(std::span<const double> xyz) = 0;
+  /// attributes: nothing but where HoldsAttributes.
+  virtual void WriteVertices(std::span<const double> xyz, std::span<const uint8_t> attributes) = 0;
   virtual void WriteFaces(std::span<const Triangle> faces) = 0;
+  /// Attributes of vertices, and remarks.
+  virtual bool HoldsAttributes() const { return false; }
   /// Completes the file but for the commit.
   virtual void Finish() = 0;
 
@@ -38,6 +43,7 @@ class CountedWriter : public MeshWriter {
   MeshShape shape_;
   uint64_t vertices_left_;
   uint64_t faces_left_;
+  size_t stride_;  ///< bytes of the attributes of a vertex
   std::unique_ptr<AtomicFile> file_;
 };
 

@@ -47,15 +47,20 @@ CountedWriter::CountedWriter(const std::string& path, const MeshShape& shape, bo
       shape_(shape),
       vertices_left_(shape.vertices),
       faces_left_(shape.faces),
+      stride_(shape.schema.Stride()),
       file_(AtomicFile::Create(path, force).value()) {}
 
-Result<void> CountedWriter::AppendVertices(std::span<const double> xyz) {
+Result<void> CountedWriter::AppendVertices(std::span<const double> xyz,
+                                           std::span<const uint8_t> attributes) {
   return Guarded([&] {
     if (xyz.size() % 3 != 0 || xyz.size() / 3 > vertices_left_) {
       ThrowInternal("more vertices are written than were announced");
     }
+    if (attributes.size() != xyz.size() / 3 * stride_) {
+      ThrowInternal("the attributes written are not those that were announced");
+    }
     vertices_left_ -= xyz.size() / 3;
-    WriteVertices(xyz);
+    WriteVertices(xyz, HoldsAttributes() ? attributes : std::span<const uint8_t>());
   });
 }
 
@@ -80,6 +85,23 @@ Result<void> CountedWriter::Commit() {
     Finish();
     file_->Commit().value();
   });
+}
+
+std::vector<std::string> CountedWriter::Warnings() const {
+  if (HoldsAttributes()) return {};
+  std::vector<std::string> warnings;
+  if (!shape_.schema.attributes.empty()) {
+    std::string names;
+    for (const VertexAttribute& attribute : shape_.schema.attributes) {
+      names += (names.empty() ? "" : ", ") + attribute.name;
+    }
+    warnings.push_back("attributes of vertices are written to PLY only, lost are: " + names);
+  }
+  if (!shape_.remarks.empty()) {
+    warnings.push_back("comments are written to PLY only, lost are " +
+                       std::to_string(shape_.remarks.size()));
+  }
+  return warnings;
 }
 
 void CountedWriter::ThrowInternal(const char* reason) const {

@@ -18,6 +18,8 @@ struct MeshShape {
   uint64_t vertices = 0;
   uint64_t faces = 0;
   ScalarType coordinate_type = ScalarType::kFloat32;  ///< written as double where kFloat64
+  VertexSchema schema = {};
+  std::vector<std::string> remarks = {};  ///< lines for the header: IsRemark
 };
 
 /// The format that an output of this name has; kUsage with the known endings for any other.
@@ -34,7 +36,9 @@ class MeshWriter {
                                                     bool force);
   virtual ~MeshWriter() = default;
   /// Three coordinates a vertex. As float: rounded, or the very bits where WidenFloat made them.
-  virtual Result<void> AppendVertices(std::span<const double> xyz) = 0;
+  /// attributes: of the same vertices, as MeshSource::ReadVertexAttributes gives them.
+  virtual Result<void> AppendVertices(std::span<const double> xyz,
+                                      std::span<const uint8_t> attributes = {}) = 0;
   virtual Result<void> AppendFaces(std::span<const Triangle> faces) = 0;
   /// Checks that as many came as were announced (kInternal), syncs and renames into place.
   virtual Result<void> Commit() = 0;

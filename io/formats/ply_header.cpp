@@ -51,7 +51,11 @@ class HeaderParser {
     while (true) {
       const std::string_view line = NextLine();
       const Words words = WordsOf(line);
-      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words.empty()) continue;
+      if (words[0] == "comment" || words[0] == "obj_info") {
+        KeepRemark(line.substr(line.find_first_not_of(" \t")));
+        continue;
+      }
       if (words[0] == "end_header") break;
       if (words[0] == "format") {
         ParseFormat(words);
@@ -89,6 +93,15 @@ class HeaderParser {
     if (position_ == kLongestHeader) Fail("no end_header in the first 1 MiB");
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     return line;
+  }
+
+  void KeepRemark(std::string_view line) {
+    if (!IsRemark(line) || line.size() > kMostRemarkBytes - remark_bytes_) {
+      ++header_.remarks_dropped;
+      return;
+    }
+    remark_bytes_ += line.size();
+    header_.remarks.emplace_back(line);
   }
 
   void ParseFormat(const Words& words) {
@@ -166,6 +179,7 @@ class HeaderParser {
   const std::string& path_;
   size_t position_ = 0;
   uint64_t line_number_ = 0;
+  size_t remark_bytes_ = 0;
   bool has_format_ = false;
   std::set<std::string, std::less<>> element_names_;
   std::set<std::string, std::less<>> property_names_;  // of the last element

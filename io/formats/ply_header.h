@@ -28,8 +28,10 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
-  uint64_t data_begin = 0;  ///< offset of the first byte behind the header
-  uint64_t line_count = 0;  ///< lines of the header
+  std::vector<std::string> remarks;  ///< lines "comment" and "obj_info", up to kMostRemarkBytes
+  uint64_t remarks_dropped = 0;      ///< further ones
+  uint64_t data_begin = 0;           ///< offset of the first byte behind the header
+  uint64_t line_count = 0;           ///< lines of the header
 };
 
 /// True where the bytes begin as a PLY file does: a first line that is "ply".

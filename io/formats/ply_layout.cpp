@@ -53,6 +53,22 @@ void PlanVertices(const std::string& path, PlyElementPlan& plan, PlyLayout& layo
   layout.vertex_count = element.count;
 }
 
+/// Every scalar of a vertex beside its position, as far as there is room.
+void PlanAttributes(PlyElementPlan& plan, VertexSchema& schema) {
+  const std::vector<PlyProperty>& properties = plan.element->properties;
+  for (size_t i = 0; i < properties.size(); ++i) {
+    if (i == plan.coordinates[0]) schema.before_position = schema.attributes.size();
+    if (std::ranges::find(plan.coordinates, i) != plan.coordinates.end()) continue;
+    const PlyProperty& property = properties[i];
+    if (property.is_list || !IsAttributeName(property.name) ||
+        schema.attributes.size() == kMostAttributes) {
+      continue;
+    }
+    plan.attributes.push_back(i);
+    schema.attributes.push_back({property.name, property.type});
+  }
+}
+
 void PlanIndexList(const std::string& path, PlyElementPlan& plan) {
   const PlyElement& element = *plan.element;
   std::optional<size_t> index = PropertyNamed(element, "vertex_indices");
@@ -69,7 +85,8 @@ void PlanIndexList(const std::string& path, PlyElementPlan& plan) {
 bool IsCoded(const PlyElementPlan& plan, size_t property) {
   switch (plan.role) {
     case PlyRole::kVertices:
-      return std::ranges::find(plan.coordinates, property) != plan.coordinates.end();
+      return std::ranges::find(plan.coordinates, property) != plan.coordinates.end() ||
+             std::ranges::binary_search(plan.attributes, property);
     case PlyRole::kFaces:
     case PlyRole::kStrips:
       return property == plan.index_list;
@@ -90,6 +107,7 @@ PlyLayout PlanPlyLayout(const PlyHeader& header, const std::string& path) {
     plan.role = RoleOf(element);
     if (plan.role == PlyRole::kVertices) {
       PlanVertices(path, plan, layout);
+      PlanAttributes(plan, layout.schema);
       has_vertices = true;
     }
     // An element of no record holds nothing, whatever its properties; one of no property as well.

@@ -18,6 +18,8 @@ struct PlyElementPlan {
   PlyRole role = PlyRole::kOther;
   /// kVertices: indices of the properties x, y, z.
   std::array<size_t, 3> coordinates{};
+  /// kVertices: indices of the properties that are attributes, ascending.
+  std::vector<size_t> attributes;
   /// kFaces, kStrips: index of the list of vertex indices.
   size_t index_list = 0;
   /// Binary bytes of a record with empty lists.
@@ -29,6 +31,7 @@ struct PlyLayout {
   std::vector<PlyElementPlan> elements;  ///< in the order of the file, without those of no record
   uint64_t vertex_count = 0;
   ScalarType coordinate_type = ScalarType::kFloat32;
+  VertexSchema schema;
   std::vector<std::string> ignored_properties;
 };
 

@@ -1,6 +1,7 @@
 #include "io/formats/ply_source.h"
 
 #include <algorithm>
+#include <concepts>
 #include <utility>
 
 #include "io/formats/ply_ascii_cursor.h"
@@ -9,6 +10,7 @@
 #include "io/formats/ply_header.h"
 #include "io/formats/ply_layout.h"
 #include "io/formats/ply_triangles.h"
+#include "io/formats/store_bytes.h"
 
 namespace folprom::io {
 namespace {
@@ -51,6 +53,44 @@ void ReadFixedVertices(const uint8_t* records, const PlyElementPlan& plan, uint6
         xyz[3 * i + axis] = ToDouble(Load<T, kBigEndian>(value + i * plan.smallest_record));
       }
     });
+  }
+}
+
+/// Values as bytes, lowest first. Real widens a float with its bits, and checks the range of an
+/// integer, which a double holds.
+template <class Cursor>
+uint8_t* ReadValue(Cursor& cursor, ScalarType type, uint8_t* to) {
+  return WithScalarType(type, [&]<class T>(T) {
+    if constexpr (std::same_as<T, float>) {
+      return StoreLittleEndian(NarrowToFloatBits(cursor.Real(ScalarType::kFloat32)), to);
+    } else if constexpr (std::same_as<T, double>) {
+      return StoreLittleEndian(cursor.Real(ScalarType::kFloat64), to);
+    } else {
+      return StoreLittleEndian(static_cast<T>(cursor.Real(type)), to);
+    }
+  });
+}
+
+template <class Cursor>
+void ReadAttributes(Cursor& cursor, const PlyElementPlan& plan, uint64_t begin, uint64_t count,
+                    uint8_t* values) {
+  const std::vector<PlyProperty>& properties = plan.element->properties;
+  std::vector<bool> kept(properties.size(), false);
+  for (const size_t p : plan.attributes) kept[p] = true;
+
+  for (uint64_t i = 0; i < count; ++i) {
+    cursor.BeginRecord(begin + i);
+    for (size_t p = 0; p < properties.size(); ++p) {
+      const PlyProperty& property = properties[p];
+      if (kept[p]) {
+        values = ReadValue(cursor, property.type, values);
+      } else if (property.is_list) {
+        cursor.SkipItems(property.type, cursor.Count(property.count_type));
+      } else {
+        cursor.Skip(property.type);
+      }
+    }
+    cursor.EndRecord();
   }
 }
 
@@ -143,6 +183,7 @@ class PlySource final : public MeshSource {
         layout_(PlanPlyLayout(header_, file_.path())),
         blocks_(IndexPlyBlocks(file_, header_, layout_)) {
     blocks_.notes.ignored_properties = std::move(layout_.ignored_properties);
+    blocks_.notes.remarks_dropped = header_.remarks_dropped;
     for (const PlyElementPlan& plan : layout_.elements) {
       if (plan.role == PlyRole::kVertices) vertices_ = plan;
     }
@@ -173,6 +214,19 @@ class PlySource final : public MeshSource {
         }
       }
       ReadVertices(cursor, vertices_, begin, count, xyz->data());
+    });
+  }
+
+  const VertexSchema& vertex_schema() const override { return layout_.schema; }
+  const std::vector<std::string>& remarks() const override { return header_.remarks; }
+
+  Result<void> ReadVertexAttributes(size_t block, std::vector<uint8_t>* values) const override {
+    const uint64_t begin = vertex_block_begin(block);
+    const uint64_t count = vertex_block_begin(block + 1) - begin;
+    values->resize(layout_.schema.Stride() * count);
+    if (values->empty()) return {};
+    return WithCursor(vertices_, blocks_.vertices[block], [&]<class Cursor>(Cursor& cursor) {
+      ReadAttributes(cursor, vertices_, begin, count, values->data());
     });
   }
 

@@ -1,5 +1,8 @@
-// Binary little-endian PLY: `x y z` as float or double, `property list uchar int vertex_indices`
-// (uint where the vertex count needs it). Vertices and faces go to their own offsets.
+// Binary little-endian PLY: `x y z` as float or double among the attributes of the vertices,
+// `property list uchar int vertex_indices` (uint where the vertex count needs it). Vertices and
+// faces go to their own offsets.
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -13,13 +16,37 @@ namespace {
 
 constexpr uint64_t kFaceBytes = 1 + 3 * sizeof(uint32_t);
 
+std::string PropertyLine(const VertexAttribute& attribute) {
+  static constexpr std::array<const char*, kScalarTypes> kNames{"char", "uchar", "short", "ushort",
+                                                                "int",  "uint",  "float", "double"};
+  return std::string("property ") + kNames[static_cast<size_t>(attribute.type)] + " " +
+         attribute.name + "\n";
+}
+
 std::string Header(const MeshShape& shape) {
   const std::string type = shape.coordinate_type == ScalarType::kFloat64 ? "double" : "float";
   const bool needs_uint = shape.vertices > uint64_t{std::numeric_limits<int32_t>::max()};
-  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(shape.vertices) +
-         "\nproperty " + type + " x\nproperty " + type + " y\nproperty " + type +
-         " z\nelement face " + std::to_string(shape.faces) + "\nproperty list uchar " +
+  std::string header = "ply\nformat binary_little_endian 1.0\n";
+  for (const std::string& remark : shape.remarks) header += remark + "\n";
+  header += "element vertex " + std::to_string(shape.vertices) + "\n";
+  const std::vector<VertexAttribute>& attributes = shape.schema.attributes;
+  for (size_t i = 0; i <= attributes.size(); ++i) {
+    if (i == shape.schema.before_position) {
+      for (const char* name : {"x", "y", "z"}) header += "property " + type + " " + name + "\n";
+    }
+    if (i < attributes.size()) header += PropertyLine(attributes[i]);
+  }
+  return header + "element face " + std::to_string(shape.faces) + "\nproperty list uchar " +
          (needs_uint ? "uint" : "int") + " vertex_indices\nend_header\n";
+}
+
+/// Bytes of the attributes before the position.
+size_t BytesBefore(const VertexSchema& schema) {
+  size_t bytes = 0;
+  for (size_t i = 0; i < schema.before_position; ++i) {
+    bytes += ScalarSize(schema.attributes[i].type);
+  }
+  return bytes;
 }
 
 class PlyWriter final : public CountedWriter {
@@ -27,24 +54,36 @@ class PlyWriter final : public CountedWriter {
   PlyWriter(const std::string& path, const MeshShape& shape, bool force)
       : CountedWriter(path, shape, force),
         is_double_(shape.coordinate_type == ScalarType::kFloat64),
+        before_(BytesBefore(shape.schema)),
+        stride_(shape.schema.Stride()),
         vertices_([this](std::span<const uint8_t> bytes) { WriteAt(&vertex_offset_, bytes); }),
         faces_([this](std::span<const uint8_t> bytes) { WriteAt(&face_offset_, bytes); }) {
     const std::string header = Header(shape);
     file().Append({reinterpret_cast<const uint8_t*>(header.data()), header.size()}).value();
     vertex_offset_ = header.size();
-    face_offset_ =
-        vertex_offset_ + shape.vertices * 3 * (is_double_ ? sizeof(double) : sizeof(float));
+    const uint64_t position_bytes = 3 * (is_double_ ? sizeof(double) : sizeof(float));
+    face_offset_ = vertex_offset_ + shape.vertices * (position_bytes + stride_);
   }
 
  private:
-  void WriteVertices(std::span<const double> xyz) override {
-    for (const double value : xyz) {
-      if (is_double_) {
-        StoreLittleEndian(value, vertices_.Extend(sizeof value));
-      } else {
-        StoreLittleEndian(NarrowToFloatBits(value), vertices_.Extend(sizeof(float)));
+  bool HoldsAttributes() const override { return true; }
+
+  void WriteVertices(std::span<const double> xyz, std::span<const uint8_t> attributes) override {
+    for (size_t i = 0; i < xyz.size(); i += 3, attributes = attributes.subspan(stride_)) {
+      WriteBytes(attributes.first(before_));
+      for (const double value : xyz.subspan(i, 3)) {
+        if (is_double_) {
+          StoreLittleEndian(value, vertices_.Extend(sizeof value));
+        } else {
+          StoreLittleEndian(NarrowToFloatBits(value), vertices_.Extend(sizeof(float)));
+        }
       }
+      WriteBytes(attributes.first(stride_).subspan(before_));
     }
+  }
+
+  void WriteBytes(std::span<const uint8_t> bytes) {
+    if (!bytes.empty()) std::ranges::copy(bytes, vertices_.Extend(bytes.size()));
   }
 
   void WriteFaces(std::span<const Triangle> faces) override {
@@ -66,6 +105,7 @@ class PlyWriter final : public CountedWriter {
   }
 
   bool is_double_;
+  size_t before_, stride_;  ///< bytes of the attributes before the position, and of all
   uint64_t vertex_offset_ = 0, face_offset_ = 0;
   OutputBuffer vertices_, faces_;
 };

@@ -88,7 +88,7 @@ class StlWriter final : public CountedWriter {
         faces_([this](std::span<const uint8_t> bytes) { face_file_.Append(bytes); }) {}
 
   std::vector<std::string> Warnings() const override {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = CountedWriter::Warnings();
     if (!is_soup_ || shape().vertices != 3 * shape().faces) {
       warnings.push_back(
           "STL holds facets alone: which of them share a vertex is lost, and with it every vertex "
@@ -103,7 +103,7 @@ class StlWriter final : public CountedWriter {
 
  private:
   // Temporary files are in the byte order of the machine.
-  void WriteVertices(std::span<const double> xyz) override {
+  void WriteVertices(std::span<const double> xyz, std::span<const uint8_t>) override {
     for (const double value : xyz) {
       const uint32_t bits = NarrowToFloatBits(value);
       rounded_ += std::bit_cast<uint64_t>(WidenFloat(std::bit_cast<float>(bits))) !=

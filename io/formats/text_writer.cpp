@@ -35,13 +35,16 @@ class TextWriter final : public CountedWriter {
   }
 
   std::vector<std::string> Warnings() const override {
-    if (decimals_.payloads_lost() == 0) return {};
-    return {std::string(form_.name) + " holds text: " + std::to_string(decimals_.payloads_lost()) +
-            " NaN lose their payload"};
+    std::vector<std::string> warnings = CountedWriter::Warnings();
+    if (decimals_.payloads_lost() > 0) {
+      warnings.push_back(std::string(form_.name) + " holds text: " +
+                         std::to_string(decimals_.payloads_lost()) + " NaN lose their payload");
+    }
+    return warnings;
   }
 
  private:
-  void WriteVertices(std::span<const double> xyz) override {
+  void WriteVertices(std::span<const double> xyz, std::span<const uint8_t>) override {
     for (size_t i = 0; i < xyz.size(); i += 3) {
       vertices_.Add(form_.vertex);
       for (size_t axis = 0; axis < 3; ++axis) {

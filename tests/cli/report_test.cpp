@@ -33,7 +33,7 @@ TEST_F(Report, EncodeAsJson) {
   EXPECT_DOUBLE_EQ(report.at("bits_per_vertex"), report.at("bytes").get<double>() * 8 / 3000);
   const auto& bits = report.at("bits");
   ExpectKeys(bits, {"split", "root", "theta", "rho", "z", "refinement", "connected", "pivots",
-                    "sides", "exceptions", "seams", "rests"});
+                    "sides", "exceptions", "seams", "rests", "attributes"});
   double sum = 0;
   for (const auto& kind : bits) sum += kind.get<double>();
   EXPECT_GT(sum, 0.9 * 8 * report.at("bytes").get<double>());
@@ -188,14 +188,47 @@ TEST_F(Report, CutFileIsNotLossless) {
 TEST_F(Report, WhatIsNotKeptAsItWasIsAWarning) {
   WriteText(Path("strip.ply"),
             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-            "property float z\nproperty uchar red\nelement tristrips 1\n"
+            "property float z\nproperty list uchar int red\nelement tristrips 1\n"
             "property list int int vertex_indices\nend_header\n"
-            "0 0 0 9\n1 0 0 9\n0 1 0 9\n1 1 1 9\n8 0 1 2 3 -1 1 2 3\n");
+            "0 0 0 0\n1 0 0 0\n0 1 0 0\n1 1 1 0\n8 0 1 2 3 -1 1 2 3\n");
   const Outcome outcome = Run({"encode", Path("strip.ply"), "-o", Path("o.folp"), "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(
       outcome.json().at("warnings"),
       (std::vector<std::string>{"2 triangle strips unrolled", "properties not kept: vertex.red"}));
+}
+
+TEST_F(Report, AttributesAreToldWithTheirBits) {
+  WriteText(Path("colour.ply"),
+            "ply\nformat ascii 1.0\ncomment one\nelement vertex 4\nproperty float x\n"
+            "property float y\nproperty float z\nproperty uchar red\nproperty float quality\n"
+            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+            "0 0 0 9 0.5\n1 0 0 8 0.5\n0 1 0 7 0.5\n1 1 1 200 0.5\n3 0 1 2\n");
+  const Outcome outcome = Run({"encode", Path("colour.ply"), "-o", Path("c.folp"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json().at("warnings"), std::vector<std::string>());
+  for (const auto& report : {outcome.json(), Run({"info", Path("c.folp"), "--json"}).json()}) {
+    const auto& attributes = report.at("attributes");
+    ASSERT_EQ(attributes.size(), 2u);
+    EXPECT_EQ(attributes.at(0).at("name"), "red");
+    EXPECT_EQ(attributes.at(0).at("type"), "uint8");
+    EXPECT_GT(attributes.at(0).at("bits_per_vertex").get<double>(), 0);
+    EXPECT_EQ(attributes.at(1).at("type"), "float32");
+    EXPECT_EQ(attributes.at(1).at("bits_per_vertex"), 0);
+  }
+  const std::string text = Run({"info", Path("c.folp")}).out;
+  EXPECT_NE(text.find("uint8 red: "), std::string::npos) << text;
+  EXPECT_NE(text.find("comment one\n"), std::string::npos) << text;
+  const auto verified =
+      Run({"verify", Path("c.folp"), "--against", Path("colour.ply"), "--json"}).json();
+  EXPECT_EQ(verified.at("attributes"), 2);
+
+  const Outcome without =
+      Run({"encode", Path("colour.ply"), "-o", Path("n.folp"), "--json", "--no-attributes"});
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_EQ(without.json().at("warnings"),
+            (std::vector<std::string>{"properties not kept: vertex.red, vertex.quality"}));
+  EXPECT_TRUE(Run({"info", Path("n.folp"), "--json"}).json().at("attributes").empty());
 }
 
 TEST_F(Report, UnreadableScanGivesThree) {

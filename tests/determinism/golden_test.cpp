@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "io/container/checksum.h"
+#include "tests/support/attribute_ply.h"
 #include "tests/support/bit_mesh.h"
 #include "tests/support/codec.h"
 #include "tests/support/coders.h"
@@ -28,6 +30,7 @@ constexpr uint64_t kMostEffortHash = 0x442259f57bfe6ec8;
 constexpr uint64_t kExactHash = 0x19062560bf981078;
 constexpr uint64_t kExactRestsHash = 0x7726838c9b33275a;
 constexpr uint64_t kOtherHash = 0xc8cc3252a8d612e;
+constexpr uint64_t kAttributesHash = 0xa270d26fddd0447c;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {
@@ -116,6 +119,19 @@ TEST(GoldenTest, ExactCoordinatesOffAnyLatticeGiveTheKnownBytes) {
   }
   WriteBits(folder.File("scan.ply"), mesh);
   ExpectHashOf(folder.File("scan.ply"), "kExactRestsHash", kExactRestsHash, ExactOptions(400));
+}
+
+TEST(GoldenTest, AttributesInSubtreesGiveTheKnownBytes) {
+  TemporaryFolder folder;
+  AttributeMesh content{IntegerTerrain(60, 50, 3), 1, {"comment of the scanner"}};
+  content.mesh.attributes = Colours(content.mesh, 3);
+  for (DecodedAttribute& other : EveryType(content.mesh, 3)) {
+    content.mesh.attributes.push_back(std::move(other));
+  }
+  WriteAttributes(folder.File("scan.ply"), content);
+  EncodeOptions options;
+  options.codec.subtree_vertices = 900;
+  ExpectHashOf(folder.File("scan.ply"), "kAttributesHash", kAttributesHash, options);
 }
 
 TEST(GoldenTest, EverythingOffInSubtreesGivesTheKnownBytes) {

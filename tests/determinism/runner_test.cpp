@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "parallel/runner.h"
+#include "tests/support/attribute_ply.h"
 #include "tests/support/bit_mesh.h"
 #include "tests/support/codec.h"
 #include "tests/support/coders.h"
@@ -91,6 +92,16 @@ TEST_P(RunnerTest, NeverChangesTheBytesOfManySmallSubtrees) {
   TemporaryFolder folder;
   WritePly(folder.File("scan.ply"), BumpySphere(4000, true, 2), CoordinateType::kDouble);
   ExpectSameBytes(folder.File("scan.ply"), Options(50), 80, 5);
+}
+
+TEST(AttributeRunnerTest, NeverChangesTheBytesOfAttributes) {
+  TemporaryFolder folder;
+  AttributeMesh content{IntegerTerrain(70, 60, 3), 1, {"comment of the scanner"}};
+  content.mesh.attributes = EveryType(content.mesh, 3);
+  WriteAttributes(folder.File("scan.ply"), content);
+  EncodeOptions options;
+  options.codec.subtree_vertices = 400;
+  ExpectSameBytes(folder.File("scan.ply"), options, 10, 3);
 }
 
 TEST(EffortRunnerTest, NeverChangesTheBytesAtLeastAndMostEffort) {

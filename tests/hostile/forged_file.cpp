@@ -20,6 +20,7 @@ class CopyingTruth final : public SubtreeTruth {
  public:
   CopyingTruth(TreeTruth& honest, uint32_t copies) : honest_(honest), copies_(copies) {}
   bool OnGrid() const override { return false; }
+  const uint8_t* Attributes(uint32_t set) const override { return honest_.Attributes(set); }
   Int3 RootRepresentative() const override { return honest_.RootRepresentative(); }
   uint32_t ChildCount(uint32_t set) const override { return honest_.ChildCount(set); }
   double Distortion(uint32_t set) const override { return honest_.Distortion(set); }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "folprom/attribute.h"
 #include "folprom/result.h"
 
 namespace folprom {
@@ -18,7 +19,8 @@ namespace folprom {
 struct DecodedMesh {
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<uint64_t, 3>> faces;
-  bool is_float = false;  ///< the scan had floats, or integers that fit into one
+  bool is_float = false;                     ///< the scan had floats, or integers that fit into one
+  std::vector<DecodedAttribute> attributes = {};  ///< in the order of the scan
 };
 
 /// Decodes a .folp file held in memory. Not thread-safe; move-only.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "folprom/attribute.h"
 #include "folprom/result.h"
 #include "folprom/settings.h"
 
@@ -24,7 +25,8 @@ struct BitCounts {
   double refinement = 0;
   double connected = 0, pivots = 0, sides = 0;  ///< connectivity inside subtrees
   double exceptions = 0, seams = 0;
-  double rests = 0;  ///< what the lattice of an exact encoding leaves over
+  double rests = 0;       ///< what the lattice of an exact encoding leaves over
+  double attributes = 0;  ///< of the vertices, but for those of each subtree's first vertex
 };
 
 /// Outcome of EncodeFile. Warnings are sentences for the user (polygons triangulated, properties
@@ -35,8 +37,9 @@ struct EncodeReport {
   uint64_t bytes = 0;
   uint64_t subtrees = 0;
   uint64_t layers = 0;
-  uint64_t spill_bytes = 0;  ///< temporary disk used at the peak
-  BitCounts bits;            ///< over the whole file, without rounding to bytes
+  uint64_t spill_bytes = 0;               ///< temporary disk used at the peak
+  BitCounts bits;                         ///< over the whole file, without rounding to bytes
+  std::vector<AttributeInfo> attributes;  ///< of the vertices, that were kept
   std::vector<std::string> warnings;
 };
 
@@ -96,8 +99,10 @@ struct FileInfo {
   std::optional<ExactInfo> exact;
   std::array<double, 3> box_lo{}, box_hi{};
   CodecSettings codec;
-  std::vector<LayerInfo> layers;  ///< whose table is there
-  bool has_bits = false;          ///< what follows is known: the last table is there
+  std::vector<AttributeInfo> attributes;  ///< of the vertices; without bits unless has_bits
+  std::vector<std::string> remarks;       ///< lines "comment" and "obj_info" of the scan
+  std::vector<LayerInfo> layers;          ///< whose table is there
+  bool has_bits = false;                  ///< what follows is known: the last table is there
   /// Bits per vertex of the original by kind.
   double split = 0, offsets = 0, refinement = 0, connectivity = 0, exceptions = 0, seams = 0;
   uint64_t table_bytes = 0, checksum_bytes = 0, flush_bytes = 0;
@@ -114,12 +119,14 @@ struct VerifyReport {
   double tolerance = 0;
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  std::string reason;  ///< why not lossless; empty otherwise
+  uint64_t attributes = 0;  ///< of the vertices, that were compared (against only)
+  std::string reason;       ///< why not lossless; empty otherwise
 };
 
 /// Decodes everything and compares it with the digest of the file and, when `original` is not
-/// empty, vertex by vertex and face by face with that scan: of an exact file bit by bit. A cut file
-/// is not lossless.
+/// empty, vertex by vertex and face by face with that scan: of an exact file, and attributes in
+/// any, bit by bit. What an encoding left out by its settings is not compared. A cut file is not
+/// lossless.
 Result<VerifyReport> VerifyFile(const std::string& input, const std::string& original,
                                 const DecodeOptions& options, parallel::Runner& runner,
                                 parallel::Progress& progress);

@@ -109,6 +109,9 @@ struct EncodeOptions {
   /// Positions come back bit for bit: floats and doubles, also -0.0, infinities and NaN. `bits` and
   /// `tolerance` are not used. Needs Offsets::kLattice.
   bool exact = false;
+  /// The scalar properties that vertices have beside x, y and z come back bit for bit, and so do
+  /// comments. Only with Offsets::kLattice. false: they are dropped.
+  bool attributes = true;
   /// Resident size to stay below; never alters bytes. The seams do not count their memory by it: a
   /// thread holds the border records of a subtree and its lower neighbours.
   uint64_t memory_bytes = uint64_t{2} << 30;

@@ -143,7 +143,7 @@ TEST(PlyLayout, NamesWhatIsNotCoded) {
                         "1 2 3 4 0\n5\n"))
           .value();
   EXPECT_EQ(source->notes().ignored_properties,
-            (std::vector<std::string>{"vertex.red", "vertex.tags", "edge.a"}));
+            (std::vector<std::string>{"vertex.tags", "edge.a"}));
 }
 
 TEST(PlyCounts, BeyondTheBytesLeftAreRefusedBeforeAnyAllocation) {

@@ -103,10 +103,10 @@ TEST(PlyFormats, AgreeOnAFileWithAllThatAFileCanHave) {
     EXPECT_EQ(source->notes().polygons_triangulated, 1u);
     EXPECT_EQ(source->notes().polygons_dropped, 1u);
     EXPECT_EQ(source->notes().strips, 0u);
-    EXPECT_EQ(source->notes().ignored_properties,
-              (std::vector<std::string>{"camera.matrix", "camera.view", "vertex.quality",
-                                        "vertex.tags", "edge.vertex1", "edge.vertex2", "face.area",
-                                        "face.red", "tail.weights"}));
+    EXPECT_EQ(
+        source->notes().ignored_properties,
+        (std::vector<std::string>{"camera.matrix", "camera.view", "vertex.tags", "edge.vertex1",
+                                  "edge.vertex2", "face.area", "face.red", "tail.weights"}));
     source->DropResident();
     EXPECT_EQ(testing::AllBlocks(*source).value().xyz, testing::MixedPositions());
   }

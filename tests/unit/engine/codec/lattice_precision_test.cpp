@@ -12,6 +12,7 @@ class FlatTruth final : public SubtreeTruth {
  public:
   explicit FlatTruth(double distortion) : distortion_(distortion) {}
   bool OnGrid() const override { return false; }
+  const uint8_t* Attributes(uint32_t) const override { return nullptr; }
   Int3 RootRepresentative() const override { return {}; }
   uint32_t ChildCount(uint32_t) const override { return 2; }
   double Distortion(uint32_t) const override { return distortion_; }

@@ -23,14 +23,9 @@ constexpr const char* kDescription =
     "  folprom render scan.folp --sheet -o lods.png\n"
     "  folprom synth --vertices 10M -o scan.ply";
 
-constexpr ExitCode kExitCodes[] = {{0, "done"},
-                                   {2, "usage"},
-                                   {3, "input"},
-                                   {4, "encoded data corrupt"},
-                                   {5, "output or disk"},
-                                   {6, "limit exceeded"},
-                                   {70, "bug"},
-                                   {130, "interrupted"}};
+constexpr ExitCode kExitCodes[] = {
+    {0, "done"},           {2, "usage"},          {3, "input"}, {4, "encoded data corrupt"},
+    {5, "output or disk"}, {6, "limit exceeded"}, {70, "bug"},  {130, "interrupted"}};
 
 class HelpFormatter : public CLI::Formatter {
  public:
@@ -84,12 +79,12 @@ Program MakeProgram() {
   CLI::App& parser = *program.parser;
   parser.formatter(std::make_shared<HelpFormatter>());
   parser.footer(Footer());
-  parser.set_version_flag("--version", VersionText, "Print version, file format and build");
   parser.set_help_flag("-h,--help", "Print this help");  // the verbs take it over
+  parser.set_version_flag("--version", VersionText, "Print version, file format and build");
   parser.require_subcommand(0, 1);
-  program.verbs = {AddEncode(parser),  AddDecode(parser), AddInfo(parser),
-                   AddVerify(parser),  AddCompare(parser), AddRd(parser),
-                   AddBatch(parser),   AddRender(parser), AddSynth(parser)};
+  program.verbs = {AddEncode(parser), AddDecode(parser),  AddInfo(parser),
+                   AddVerify(parser), AddCompare(parser), AddRd(parser),
+                   AddBatch(parser),  AddRender(parser),  AddSynth(parser)};
   return program;
 }
 

@@ -5,7 +5,7 @@
 namespace folprom::pages {
 namespace {
 
-constexpr const char* kHead = R"(# bash completion for folprom: verbs, options, values and files. Needs bash only.
+constexpr const char* kHead = R"(# bash completion for folprom: verbs, options, values and files.
 
 _folprom_words() {
   mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur")
@@ -84,9 +84,10 @@ std::string VerbCase(const Command& verb) {
     text += fmt::format("        {}){} ;;\n", Joined(option.names, " | "),
                         offer.empty() ? "" : " " + offer);
   }
-  text += fmt::format("        *)\n          if [[ $cur == -* ]]; then\n"
-                      "            _folprom_words '{}'\n",
-                      Joined(OfferedNames(verb), " "));
+  text += fmt::format(
+      "        *)\n          if [[ $cur == -* ]]; then\n"
+      "            _folprom_words '{}'\n",
+      Joined(OfferedNames(verb), " "));
   // All positional arguments of a verb are of one kind.
   const std::string offer = verb.positionals.empty() ? "" : Offer(verb.positionals.front());
   if (!offer.empty()) text += fmt::format("          else\n            {}\n", offer);

@@ -19,10 +19,10 @@ struct Argument {
   std::string value;               ///< what stands for its value, "" for a flag
   std::string text;
   bool required = false;
-  bool for_tests = false;                 ///< nothing that a user needs
-  std::vector<std::string> choices;       ///< the values it can have, where they are few
-  Files files = Files::kNone;             ///< of its value
-  std::vector<std::string> excludes;      ///< names of options that do not go with it
+  bool for_tests = false;             ///< nothing that a user needs
+  std::vector<std::string> choices;   ///< the values it can have, where they are few
+  Files files = Files::kNone;         ///< of its value
+  std::vector<std::string> excludes;  ///< names of options that do not go with it
 };
 
 /// The program, or one of its verbs.

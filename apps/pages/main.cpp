@@ -1,5 +1,5 @@
-// folprom_pages FOLDER VERSION [DATE]: writes the man pages and shell completions of folprom. A tool
-// of the build.
+// folprom_pages FOLDER VERSION [DATE]: writes the man pages and shell completions of folprom. A
+// tool of the build.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>

@@ -32,8 +32,13 @@ std::string Action(const Argument& argument) {
     case Files::kFolder:
       return "_files -/";
     default:
-      return fmt::format("_files -g \"(#i)*.({})\"", Joined(EndingsOf(argument.files), "|"));
+      break;
   }
+  // One ending in parentheses would be flags of the pattern.
+  const std::vector<std::string> endings = EndingsOf(argument.files);
+  const std::string ending =
+      endings.size() == 1 ? endings.front() : fmt::format("({})", Joined(endings, "|"));
+  return fmt::format("_files -g \"(#i)*.{}\"", ending);
 }
 
 std::string Value(const Argument& argument) {

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <thread>
 
+#include "io/container/file_table.h"
 #include "tests/cli/program.h"
 
 namespace folprom::cli_test {
@@ -14,7 +15,7 @@ class Usage : public CliTest {};
 
 TEST_F(Usage, HelpShowsExamplesBeforeOptions) {
   for (const char* verb :
-       {"encode", "decode", "info", "verify", "compare", "rd", "batch", "synth"}) {
+       {"encode", "decode", "info", "verify", "compare", "rd", "batch", "render", "synth"}) {
     const Outcome outcome = Run({verb, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     const size_t example = outcome.out.find(std::string("  folprom ") + verb + " ");
@@ -24,10 +25,13 @@ TEST_F(Usage, HelpShowsExamplesBeforeOptions) {
   EXPECT_EQ(Run({"--help"}).exit_code, 0);
 }
 
-TEST_F(Usage, VersionIsPrinted) {
+TEST_F(Usage, VersionTellsFileFormatAndBuild) {
   const Outcome outcome = Run({"--version"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(outcome.out.starts_with("folprom ")) << outcome.out;
+  const std::string format = "\nfile format: version " + std::to_string(io::kFormatVersion) + ",";
+  EXPECT_NE(outcome.out.find(format), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\nbuild: "), std::string::npos) << outcome.out;
 }
 
 TEST_F(Usage, RejectsMissingAndUnknownVerbsAndOptions) {

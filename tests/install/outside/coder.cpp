@@ -56,8 +56,7 @@ bool Run(const std::string& scan, const std::string& file, const std::string& ba
   const auto source = folprom::io::MeshSource::Open(back).value();
   std::printf("%llu bytes, %llu layers\n", static_cast<unsigned long long>(encoded.bytes),
               static_cast<unsigned long long>(encoded.layers));
-  return decoded.complete && verified.lossless &&
-         source->vertex_count() == kAround * kAcross &&
+  return decoded.complete && verified.lossless && source->vertex_count() == kAround * kAcross &&
          source->triangle_count() == 2 * kAround * kAcross;
 }
 

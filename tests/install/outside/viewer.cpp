@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
     if (mesh.positions.size() < vertices) return 1;
     vertices = mesh.positions.size();
     faces = mesh.faces.size();
-    std::printf("layer %zu: %zu vertices, %zu faces, error at most %g\n",
-                decoder->decoded_layers(), vertices, faces, decoder->error_bound());
+    std::printf("layer %zu: %zu vertices, %zu faces, error at most %g\n", decoder->decoded_layers(),
+                vertices, faces, decoder->error_bound());
   }
   const bool several = decoder->layer_count() > 2;
   const bool whole = vertices == std::strtoull(argv[2], nullptr, 10) &&

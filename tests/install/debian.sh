@@ -29,9 +29,9 @@ dpkg-deb -c "$development" >development.list
 has_file() {
   grep -q "root/root .* \./usr/$2\$" "$1" || { echo "$1: no $2" >&2; exit 1; }
 }
-for file in bin/folprom share/man/man1/folprom-encode.1 share/folprom/archive.toml \
+for file in bin/folprom share/man/man1/folprom-encode.1.gz share/folprom/archive.toml \
   share/doc/folprom/copyright share/bash-completion/completions/folprom \
-  share/zsh/site-functions/_folprom; do
+  share/zsh/vendor-completions/_folprom; do
   has_file program.list "$file"
 done
 for file in include/folprom/decoder.h 'lib.*/libfolprom_decode.a' 'lib.*/pkgconfig/folprom-decode.pc' \

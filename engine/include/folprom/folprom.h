@@ -1,4 +1,5 @@
-// The whole program as four calls: encode, decode, info, verify. Files in, files out.
+// The whole program as four calls: encode, decode, info, verify. Files in, files out. Runners and
+// Progress are in parallel/runner.h and progress.h, installed as folprom/parallel/.
 #pragma once
 
 #include <array>

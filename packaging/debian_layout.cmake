@@ -1,0 +1,11 @@
+# Run by cpack on the files that go into the packages: where Debian has them otherwise.
+file(GLOB trees "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/*/usr")
+foreach(tree IN LISTS trees)
+  if(EXISTS ${tree}/share/zsh/site-functions)
+    file(RENAME ${tree}/share/zsh/site-functions ${tree}/share/zsh/vendor-completions)
+  endif()
+  file(GLOB man_pages ${tree}/share/man/man1/*.1)
+  if(man_pages)
+    execute_process(COMMAND gzip -9n ${man_pages} COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+endforeach()

@@ -61,8 +61,11 @@ class BlockLists {
   struct alignas(kBlock * sizeof(T)) Block {
     std::array<T, kBlock> values;
   };
-  const T* ValuesOf(const List& list) const { return pool_.data()->values.data() + Offset(list); }
-  T* ValuesOf(const List& list) { return pool_.data()->values.data() + Offset(list); }
+  // Null while the pool is empty.
+  const T* ValuesOf(const List& list) const {
+    return reinterpret_cast<const T*>(pool_.data()) + Offset(list);
+  }
+  T* ValuesOf(const List& list) { return reinterpret_cast<T*>(pool_.data()) + Offset(list); }
   static size_t Offset(const List& list) { return size_t{list.begin} * kBlock; }
 
   void Release(const List& list) {

@@ -23,8 +23,17 @@ class BatchResume : public BatchTest {
     for (int i = 0; i < kScans; ++i) MakeScan("scans/s" + std::to_string(i) + ".ply", 1000, i);
     std::filesystem::create_directory(Path("tmp"));
     WriteJob(JobFor("whole"));
+    const auto begin = std::chrono::steady_clock::now();
     ASSERT_EQ(RunBatch().exit_code, 0);
+    whole_run_ = std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::chrono::steady_clock::now() - begin);
     WriteJob(JobFor("cut"));
+  }
+
+  // Before half of an uninterrupted run is over.
+  template <class Random>
+  std::chrono::milliseconds Moment(Random& random) const {
+    return whole_run_ * static_cast<int>(random() % 50) / 100;
   }
 
   std::string JobFor(const std::string& output) const {
@@ -72,6 +81,8 @@ class BatchResume : public BatchTest {
       EXPECT_EQ(result.at("status"), "up_to_date") << key;
     }
   }
+
+  std::chrono::milliseconds whole_run_{0};
 };
 
 TEST_F(BatchResume, InterruptedAtAnyMomentEndsWithTheSameOutputs) {
@@ -80,7 +91,7 @@ TEST_F(BatchResume, InterruptedAtAnyMomentEndsWithTheSameOutputs) {
     std::filesystem::remove_all(Path("cut"));
     int interrupted = 0;
     for (int i = 0; i < 3; ++i) {
-      const int code = RunAndSignal(SIGINT, std::chrono::milliseconds(random() % 300));
+      const int code = RunAndSignal(SIGINT, Moment(random));
       // Before the handler stands the signal itself ends it; a fast run is done before it comes.
       EXPECT_TRUE(code == 130 || code == 0 || code == -1) << code;
       interrupted += code == 130;
@@ -102,9 +113,14 @@ TEST_F(BatchResume, KilledAtAnyMomentEndsWithTheSameOutputs) {
   std::mt19937 random(8);
   for (int round = 0; round < 3; ++round) {
     std::filesystem::remove_all(Path("cut"));
+    int killed = 0;
     for (int i = 0; i < 3; ++i) {
-      EXPECT_EQ(RunAndSignal(SIGKILL, std::chrono::milliseconds(random() % 300)), -1);
+      const int code = RunAndSignal(SIGKILL, Moment(random));
+      // Later runs have less to do, and may be done before.
+      EXPECT_TRUE(code == 0 || code == -1) << code;
+      killed += code == -1;
     }
+    EXPECT_GT(killed, 0);
     // The next run waits for what the killed one left running.
     const Outcome outcome = RunBatch();
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

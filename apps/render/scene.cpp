@@ -1,14 +1,11 @@
 #include "apps/render/scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
-#include "folprom/result.h"
+#include "engine/measure/embree_scene.h"
 
 namespace folprom::render {
 namespace {
@@ -48,10 +45,6 @@ double Spacing(const Vector3& extent, size_t points) {
 
 }  // namespace
 
-void Scene::ReleaseDevice::operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
-
-void Scene::ReleaseScene::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
-
 // What Embree calls back.
 struct Scene::Callbacks {
   static void KeepLowest(const RTCFilterFunctionNArguments* arguments) {
@@ -66,15 +59,6 @@ struct Scene::Callbacks {
     context.distance = distance;
     context.element = element;
   }
-
-  static bool GoOn(void* progress, double) {
-    try {
-      static_cast<const parallel::Progress*>(progress)->ThrowIfCancelled();
-    } catch (const parallel::Cancelled&) {
-      return false;
-    }
-    return true;
-  }
 };
 
 uint64_t Scene::Bytes(uint64_t vertices, uint64_t faces) {
@@ -86,22 +70,10 @@ uint64_t Scene::Bytes(uint64_t vertices, uint64_t faces) {
 
 Scene::Scene(measure::TriangleMesh mesh, const Camera& camera, parallel::Runner& runner,
              const parallel::Progress& progress)
-    : device_(rtcNewDevice(nullptr)) {
-  if (!device_) throw Failure(ErrorKind::kInternal, "Embree does not start");
+    : scene_(std::make_unique<measure::EmbreeScene>(static_cast<RTCSceneFlags>(
+          static_cast<int>(RTC_SCENE_FLAG_ROBUST) | static_cast<int>(RTC_SCENE_FLAG_COMPACT)))) {
   TakeMesh(std::move(mesh), camera);
-  scene_.reset(rtcNewScene(device_.get()));
-  rtcSetSceneFlags(scene_.get(),
-                   static_cast<RTCSceneFlags>(static_cast<int>(RTC_SCENE_FLAG_ROBUST) |
-                                              static_cast<int>(RTC_SCENE_FLAG_COMPACT)));
-  auto* watched = const_cast<parallel::Progress*>(&progress);  // Embree hands on a void*.
-  rtcSetSceneProgressMonitorFunction(scene_.get(), &Callbacks::GoOn, watched);
-  Build(runner);
-  progress.ThrowIfCancelled();
-  const RTCError error = rtcGetDeviceError(device_.get());
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (error != RTC_ERROR_NONE) {
-    throw Failure(ErrorKind::kInternal, "Embree fails with error " + std::to_string(error));
-  }
+  scene_->Build(MakeGeometry(), runner, progress);
 }
 
 Scene::~Scene() = default;
@@ -141,10 +113,10 @@ void Scene::MakeSpheres(const std::vector<bool>& finite, const Camera& camera) {
   positions_ = {};
 }
 
-void Scene::Build(parallel::Runner& runner) {
+RTCGeometryTy* Scene::MakeGeometry() {
   const bool triangles = has_faces();
   RTCGeometry geometry = rtcNewGeometry(
-      device_.get(), triangles ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_SPHERE_POINT);
+      scene_->device(), triangles ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_SPHERE_POINT);
   if (triangles) {
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                positions_.data(), 0, sizeof(Float3), positions_.size() - 1);
@@ -155,11 +127,7 @@ void Scene::Build(parallel::Runner& runner) {
                                spheres_.data(), 0, sizeof(Sphere), spheres_.size());
   }
   rtcSetGeometryIntersectFilterFunction(geometry, &Callbacks::KeepLowest);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  // In the arena of the runner: a number of threads given to Embree would bind the whole process.
-  runner.ForEach(1, [&](size_t) { rtcCommitScene(scene_.get()); });
+  return geometry;
 }
 
 std::optional<Scene::Hit> Scene::FirstHit(const Float3& direction) const {
@@ -172,7 +140,7 @@ std::optional<Scene::Hit> Scene::FirstHit(const Float3& direction) const {
   ray.ray.tfar = std::numeric_limits<float>::infinity();
   ray.ray.mask = ~0U;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_.get(), &context.base, &ray);
+  rtcIntersect1(scene_->get(), &context.base, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   Float3 normal = Normalized({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
   if (Dot(normal, direction) > 0) normal = -1 * normal;
@@ -192,7 +160,7 @@ bool Scene::Blocked(const Hit& hit, const Float3& direction) const {
   ray.dir_z = direction.z;
   ray.tfar = std::numeric_limits<float>::infinity();
   ray.mask = ~0U;
-  rtcOccluded1(scene_.get(), &context, &ray);
+  rtcOccluded1(scene_->get(), &context, &ray);
   return ray.tfar < 0;
 }
 

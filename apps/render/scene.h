@@ -13,8 +13,11 @@
 #include "parallel/progress.h"
 #include "parallel/runner.h"
 
-struct RTCDeviceTy;
-struct RTCSceneTy;
+struct RTCGeometryTy;
+
+namespace folprom::measure {
+class EmbreeScene;
+}
 
 namespace folprom::render {
 
@@ -22,7 +25,7 @@ namespace folprom::render {
 /// small spheres. What is not finite is left out. Thread-safe after construction.
 class Scene {
  public:
-  /// Throws std::bad_alloc, Cancelled.
+  /// Throws std::bad_alloc, Cancelled, Failure kInternal.
   Scene(measure::TriangleMesh mesh, const Camera& camera, parallel::Runner& runner,
         const parallel::Progress& progress);
   ~Scene();
@@ -50,12 +53,6 @@ class Scene {
   uint64_t faces_left_out() const { return faces_left_out_; }
 
  private:
-  struct ReleaseDevice {
-    void operator()(RTCDeviceTy* device) const;
-  };
-  struct ReleaseScene {
-    void operator()(RTCSceneTy* scene) const;
-  };
   struct Sphere {
     Float3 centre;
     float radius;
@@ -63,14 +60,13 @@ class Scene {
   struct Callbacks;
   void TakeMesh(measure::TriangleMesh mesh, const Camera& camera);
   void MakeSpheres(const std::vector<bool>& finite, const Camera& camera);
-  void Build(parallel::Runner& runner);
+  RTCGeometryTy* MakeGeometry();
 
   std::vector<Float3> positions_;  ///< one more than there are, as Embree reads 16 bytes at once
   std::vector<std::array<uint32_t, 3>> faces_;
   std::vector<Sphere> spheres_;
   uint64_t vertices_left_out_ = 0, faces_left_out_ = 0;
-  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
-  std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
+  std::unique_ptr<measure::EmbreeScene> scene_;
 };
 
 }  // namespace folprom::render

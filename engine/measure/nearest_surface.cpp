@@ -1,15 +1,11 @@
 #include "engine/measure/nearest_surface.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <string>
 
+#include "engine/measure/embree_scene.h"
 #include "engine/measure/triangle_distance.h"
-#include "folprom/result.h"
 
 namespace folprom::measure {
 namespace {
@@ -35,29 +31,12 @@ struct Search {
   float Radius() const { return RoundedUp((std::sqrt(squared) + rounding) * (1 + 1e-6) + 1e-12); }
 };
 
-#if defined(__SANITIZE_THREAD__)
-/// Repeats, where the thread sanitizer sees it, the order in which oneTBB hands the mesh to
-/// Embree's threads and back.
-std::atomic<uint32_t> order_of_handover{0};
-void HandOver() { order_of_handover.fetch_add(1, std::memory_order_release); }
-void TakeOver() { static_cast<void>(order_of_handover.load(std::memory_order_acquire)); }
-#else
-void HandOver() {}
-void TakeOver() {}
-#endif
-
 }  // namespace
-
-void NearestSurface::ReleaseDevice::operator()(RTCDeviceTy* device) const {
-  rtcReleaseDevice(device);
-}
-
-void NearestSurface::ReleaseScene::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
 
 // What Embree calls back.
 struct NearestSurface::Callbacks {
   static void Bounds(const RTCBoundsFunctionArguments* arguments) {
-    TakeOver();
+    EmbreeScene::TakeOver();
     const auto& mesh = *static_cast<const TriangleMesh*>(arguments->geometryUserPtr);
     Vector3 lo, hi;
     if (mesh.faces.empty()) {
@@ -79,7 +58,7 @@ struct NearestSurface::Callbacks {
     box.upper_x = RoundedUp(hi[0]);
     box.upper_y = RoundedUp(hi[1]);
     box.upper_z = RoundedUp(hi[2]);
-    HandOver();
+    EmbreeScene::HandOver();
   }
 
   static bool Visit(RTCPointQueryFunctionArguments* arguments) {
@@ -91,50 +70,20 @@ struct NearestSurface::Callbacks {
     arguments->query->radius = search.Radius();
     return true;
   }
-
-  static bool GoOn(void* progress, double) {
-    try {
-      static_cast<const parallel::Progress*>(progress)->ThrowIfCancelled();
-    } catch (const parallel::Cancelled&) {
-      return false;
-    }
-    return true;
-  }
 };
 
 NearestSurface::NearestSurface(const TriangleMesh& mesh, parallel::Runner& runner,
                                const parallel::Progress& progress)
-    : mesh_(mesh), device_(rtcNewDevice(nullptr)) {
-  if (!device_) throw Failure(ErrorKind::kInternal, "Embree does not start");
-  scene_.reset(rtcNewScene(device_.get()));
-  auto* watched = const_cast<parallel::Progress*>(&progress);  // Embree hands on a void*.
-  rtcSetSceneProgressMonitorFunction(scene_.get(), &Callbacks::GoOn, watched);
-  Build(runner);
-  progress.ThrowIfCancelled();
-  const RTCError error = rtcGetDeviceError(device_.get());
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (error != RTC_ERROR_NONE) {
-    throw Failure(ErrorKind::kInternal, "Embree fails with error " + std::to_string(error));
-  }
-}
-
-NearestSurface::~NearestSurface() = default;
-
-void NearestSurface::Build(parallel::Runner& runner) {
+    : mesh_(mesh), scene_(std::make_unique<EmbreeScene>()) {
   // Not triangles of Embree's own: it would round their corners, and leave some out.
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+  RTCGeometry geometry = rtcNewGeometry(scene_->device(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(element_count()));
   rtcSetGeometryUserData(geometry, const_cast<TriangleMesh*>(&mesh_));
   rtcSetGeometryBoundsFunction(geometry, &Callbacks::Bounds, nullptr);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  // Embree works with oneTBB, in the arena of its caller: inside a task, that of the runner. A
-  // number of threads given to Embree itself would bind the whole process.
-  HandOver();
-  runner.ForEach(1, [&](size_t) { rtcCommitScene(scene_.get()); });
-  TakeOver();
+  scene_->Build(geometry, runner, progress);
 }
+
+NearestSurface::~NearestSurface() = default;
 
 size_t NearestSurface::element_count() const {
   return mesh_.faces.empty() ? mesh_.positions.size() : mesh_.faces.size();
@@ -166,7 +115,7 @@ NearestSurface::Nearest NearestSurface::From(const Vector3& point, uint32_t gues
   query.radius = search.Radius();
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene_.get(), &query, &context, &Callbacks::Visit, &search);
+  rtcPointQuery(scene_->get(), &query, &context, &Callbacks::Visit, &search);
   return {std::sqrt(search.squared), search.element};
 }
 

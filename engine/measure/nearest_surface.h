@@ -7,10 +7,9 @@
 
 #include "engine/measure/triangle_mesh.h"
 
-struct RTCDeviceTy;
-struct RTCSceneTy;
-
 namespace folprom::measure {
+
+class EmbreeScene;
 
 /// The surface of a mesh: its faces, or its vertices where it has no face. Thread-safe after
 /// construction. Keeps a reference to the mesh, which lies in a UnitFrame.
@@ -35,20 +34,12 @@ class NearestSurface {
   double DistanceOf(uint32_t element, const Vector3& point) const;
 
  private:
-  struct ReleaseDevice {
-    void operator()(RTCDeviceTy* device) const;
-  };
-  struct ReleaseScene {
-    void operator()(RTCSceneTy* scene) const;
-  };
   size_t element_count() const;
   double SquaredDistanceOf(uint32_t element, const Vector3& point) const;
-  void Build(parallel::Runner& runner);
   struct Callbacks;
 
   const TriangleMesh& mesh_;
-  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
-  std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
+  std::unique_ptr<EmbreeScene> scene_;
 };
 
 }  // namespace folprom::measure

@@ -109,7 +109,7 @@ class DecodeJob {
 
  private:
   std::unique_ptr<io::MeshWriter> MakeWriter(uint64_t vertices, uint64_t faces) const {
-    auto type = static_cast<io::ScalarType>(file_.table().coordinate_type);
+    auto type = static_cast<ScalarType>(file_.table().coordinate_type);
     const io::MeshShape shape{vertices, faces, type, file_.table().schema, file_.table().remarks};
     return io::MeshWriter::Create(output_, shape, options_.overwrite).value();
   }

@@ -49,8 +49,8 @@ Result<EncodeReport> EncodeFile(const std::string& input, const std::string& out
     report.bits = BitsOf(job.costs());
     for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
       const io::VertexAttribute& attribute = table.schema.attributes[a];
-      report.attributes.push_back({attribute.name, static_cast<AttributeType>(attribute.type),
-                                   static_cast<double>(job.costs().attributes[a]) / 1024});
+      report.attributes.push_back(
+          {attribute.name, attribute.type, static_cast<double>(job.costs().attributes[a]) / 1024});
     }
     report.warnings = job.Warnings();
     return report;

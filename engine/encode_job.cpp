@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "engine/attributes/normal_names.h"
+#include "engine/attributes/value_spans.h"
 #include "engine/codec/border_file.h"
 #include "engine/exact_resolution.h"
 #include "io/container/writer.h"
@@ -47,8 +47,8 @@ std::string Text(double value) {
 }
 
 /// Distance from a float or double of this size to the next.
-double StepOf(io::ScalarType type, double size) {
-  if (type == io::ScalarType::kFloat32) {
+double StepOf(ScalarType type, double size) {
+  if (type == ScalarType::kFloat32) {
     float value = static_cast<float>(size);
     return static_cast<double>(std::nextafter(value, INFINITY)) - static_cast<double>(value);
   }
@@ -57,18 +57,18 @@ double StepOf(io::ScalarType type, double size) {
 
 }  // namespace
 
-io::ScalarType OutputType(io::ScalarType input) {
+ScalarType OutputType(ScalarType input) {
   switch (input) {
-    case io::ScalarType::kFloat64:
-    case io::ScalarType::kInt32:
-    case io::ScalarType::kUint32:
-      return io::ScalarType::kFloat64;
+    case ScalarType::kFloat64:
+    case ScalarType::kInt32:
+    case ScalarType::kUint32:
+      return ScalarType::kFloat64;
     default:
-      return io::ScalarType::kFloat32;
+      return ScalarType::kFloat32;
   }
 }
 
-Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, const EncodeOptions& options) {
+Resolution ResolutionOf(const Bounds& bounds, ScalarType type, const EncodeOptions& options) {
   Resolution result;
   if (bounds.empty()) return result;
   double longest = bounds.longest();
@@ -125,7 +125,7 @@ void EncodeJob::MeasureScan() {
 }
 
 void EncodeJob::MeasureExactScan() {
-  const bool is_float = OutputType(source_->coordinate_type()) == io::ScalarType::kFloat32;
+  const bool is_float = OutputType(source_->coordinate_type()) == ScalarType::kFloat32;
   resolution_.lattice =
       ExactLatticeFor(TakeCensus(*source_, is_float, runner_, progress_), is_float);
   resolution_.lattice.exact->step.has_rests =
@@ -168,15 +168,13 @@ bool EncodeJob::KeepsAttributes() const {
 }
 
 std::vector<ValueSpan> EncodeJob::SpansOfAttributes() const {
-  std::vector<ValueSpan> spans;
-  if (!KeepsAttributes()) return spans;
-  const auto ranges = scan_ ? scan_->attribute_ranges() : std::span<const ValueRange>();
+  if (!KeepsAttributes()) return {};
   const io::VertexSchema& schema = source_->vertex_schema();
-  for (size_t a = 0; a < schema.attributes.size(); ++a) {
-    const ValueRange range = a < ranges.size() ? ranges[a] : ValueRange{0, 0};
-    spans.push_back({schema.attributes[a].type, range.least, range.most, NormalAxis(schema, a)});
+  // A scan without vertices is not partitioned.
+  if (!scan_) {
+    return ValueSpansOf(schema, std::vector<io::AttributeRange>(schema.attributes.size()));
   }
-  return spans;
+  return ValueSpansOf(schema, scan_->attribute_ranges());
 }
 
 double EncodeJob::TypicalEdge() const {

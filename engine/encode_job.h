@@ -28,10 +28,10 @@ struct Resolution {
   Lattice lattice;
   double tolerance = 0;  ///< asked for, model units per axis
 };
-Resolution ResolutionOf(const Bounds& bounds, io::ScalarType type, const EncodeOptions& options);
+Resolution ResolutionOf(const Bounds& bounds, ScalarType type, const EncodeOptions& options);
 
 /// Type in which decoded coordinates are written.
-io::ScalarType OutputType(io::ScalarType input);
+ScalarType OutputType(ScalarType input);
 
 class EncodeJob {
  public:

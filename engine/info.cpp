@@ -82,8 +82,8 @@ Result<FileInfo> ReadInfo(const std::string& input) {
     info.codec = file.parameters().settings;
     for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
       const io::VertexAttribute& attribute = table.schema.attributes[a];
-      info.attributes.push_back({attribute.name, static_cast<AttributeType>(attribute.type),
-                                 static_cast<double>(table.attribute_bits[a])});
+      info.attributes.push_back(
+          {attribute.name, attribute.type, static_cast<double>(table.attribute_bits[a])});
     }
     info.remarks = table.remarks;
     DescribeLayers(file, &info);

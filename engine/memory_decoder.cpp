@@ -18,7 +18,7 @@ void AppendAttributes(const std::vector<uint8_t>& rows, const io::VertexSchema& 
   const size_t stride = schema.Stride();
   size_t offset = 0;
   for (size_t a = 0; a < schema.attributes.size(); ++a) {
-    const size_t size = io::ScalarSize(schema.attributes[a].type);
+    const size_t size = ScalarSize(schema.attributes[a].type);
     std::vector<uint8_t>& values = (*attributes)[a].values;
     for (size_t i = offset; i < rows.size(); i += stride) {
       values.insert(values.end(), &rows[i], &rows[i] + size);
@@ -115,9 +115,9 @@ DecodedMesh MemoryDecoder::Mesh() const {
   const io::FileTable& table = impl_->container.table();
   const Lattice lattice = LatticeOf(table, impl_->parameters);
   DecodedMesh mesh;
-  mesh.is_float = static_cast<io::ScalarType>(table.coordinate_type) == io::ScalarType::kFloat32;
+  mesh.is_float = static_cast<ScalarType>(table.coordinate_type) == ScalarType::kFloat32;
   for (const io::VertexAttribute& attribute : table.schema.attributes) {
-    mesh.attributes.push_back({attribute.name, static_cast<AttributeType>(attribute.type), {}});
+    mesh.attributes.push_back({attribute.name, attribute.type, {}});
   }
   std::vector<uint64_t> base;
   std::vector<std::vector<uint32_t>> border;

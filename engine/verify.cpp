@@ -198,8 +198,7 @@ class Comparison {
 
   void ComparePositions(VerifyReport* report) {
     const io::MeshSource& source = job_.source();
-    bool as_float =
-        static_cast<io::ScalarType>(file_.table().coordinate_type) == io::ScalarType::kFloat32;
+    bool as_float = static_cast<ScalarType>(file_.table().coordinate_type) == ScalarType::kFloat32;
     size_t blocks = source.vertex_block_count();
     std::vector<double> largest(blocks, 0);
     std::atomic<bool> same_bits = true;

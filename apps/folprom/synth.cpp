@@ -56,9 +56,9 @@ int Run(const SynthFlags& flags) {
   Session session(flags.common);
   const SynthSurface surface(flags.kind, vertices, flags.seed, session.progress());
   auto writer =
-      io::MeshWriter::Create(
-          flags.output, {surface.vertex_count(), surface.face_count(), io::ScalarType::kFloat32},
-          flags.force)
+      io::MeshWriter::Create(flags.output,
+                             {surface.vertex_count(), surface.face_count(), ScalarType::kFloat32},
+                             flags.force)
           .value();
   FileSink sink(*writer);
   surface.Generate(sink, session.progress());

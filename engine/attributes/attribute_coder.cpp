@@ -1,37 +1,19 @@
 #include "engine/attributes/attribute_coder.h"
 
-#include <bit>
 #include <cmath>
 
+#include "engine/connectivity/area_normal.h"
 #include "engine/entropy/bit_coder.h"
+#include "engine/entropy/even_code.h"
 
 namespace folprom {
 namespace {
 
 constexpr size_t kMostNeighbours = 32;
 
-/// A value of the span, all equally likely.
-template <class Coder>
-uint64_t CodeEvenly(Coder& coder, const ValueSpan& span, uint64_t value) {
-  const uint64_t width = span.most - span.least, offset = value - span.least;
-  uint64_t coded = 0;
-  for (int bit = static_cast<int>(std::bit_width(width)) - 1; bit >= 0; --bit) {
-    coded |= static_cast<uint64_t>(coder.Code(32768, (offset >> bit & 1) != 0)) << bit;
-  }
-  if (coded > width) throw Failure(ErrorKind::kCorrupt, "coded attribute lies outside its range");
-  return span.least + coded;
-}
-
-/// Of the faces around the vertex, by area; length 1, or 0.
+/// Of the surface at the vertex; length 1, or 0.
 Vector3 SurfaceNormal(const NewVertex& added) {
-  const Int3& centre = added.positions[added.vertex];
-  Vector3 normal{0, 0, 0};
-  for (const uint32_t corner : added.complex.Corners(added.vertex)) {
-    const auto [a, b] = added.complex.Opposite(corner);
-    const Vector3 cross =
-        Cross(Difference(added.positions[a], centre), Difference(added.positions[b], centre));
-    for (size_t i = 0; i < 3; ++i) normal[i] = normal[i] + cross[i];
-  }
+  Vector3 normal = AreaNormal(added.complex, added.positions, added.vertex);
   const double length = std::sqrt(Dot(normal, normal));
   for (double& component : normal) component = length > 0 ? component / length : 0;
   return normal;
@@ -44,7 +26,7 @@ AttributeCoder::AttributeCoder(std::span<const ValueSpan> spans)
   for (size_t a = 0; a < spans.size(); ++a) {
     if (spans[a].least < spans[a].most) columns_.push_back({spans[a], a, stride_});
     has_normals_ |= spans[a].normal_axis != 0;
-    stride_ += io::ScalarSize(spans[a].type);
+    stride_ += ScalarSize(spans[a].type);
   }
 }
 
@@ -53,7 +35,9 @@ void AttributeCoder::CodeRoot(Coder& coder, const uint8_t* truth) {
   for (const Column& column : columns_) {
     uint64_t value = column.span.least;
     if constexpr (Coder::kEncoding) value = OrderedOf(column.span.type, truth + column.offset);
-    ordered_.push_back(CodeEvenly(coder, column.span, value));
+    const uint64_t least = column.span.least;
+    ordered_.push_back(least + CodeEvenly(coder, column.span.most - least, value - least,
+                                          "coded attribute lies outside its range"));
   }
   ++vertices_;
 }

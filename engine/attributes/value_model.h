@@ -16,7 +16,7 @@ namespace folprom {
 
 /// The values an attribute can have.
 struct ValueSpan {
-  io::ScalarType type = io::ScalarType::kUint8;
+  ScalarType type = ScalarType::kUint8;
   uint64_t least = 0, most = 0;  ///< ordered, most >= least
   /// 1, 2, 3: it is the x, y, z of the normal of the surface; 0: of nothing that is known.
   uint32_t normal_axis = 0;
@@ -98,10 +98,10 @@ class ValueModel {
   }
 
   /// Octave of the distance, in values, that is a quarter of the scale at the base.
-  static uint32_t GrainOf(const ValuePrediction& prediction, io::ScalarType type, uint64_t base) {
+  static uint32_t GrainOf(const ValuePrediction& prediction, ScalarType type, uint64_t base) {
     const double quarter = prediction.scale / 4;
     uint64_t distance = 0;
-    if (io::IsFloat(type)) {
+    if (IsFloat(type)) {
       const uint64_t up = NearestOrdered(type, prediction.mean + quarter);
       const uint64_t down = NearestOrdered(type, prediction.mean - quarter);
       distance = std::min(up > base ? up - base : 0, base > down ? base - down : 0);

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/attributes/normal_names.h"
+#include "engine/attributes/value_spans.h"
 #include "io/formats/mesh_source.h"
 
 namespace folprom {
@@ -28,7 +28,7 @@ void DecodeSegment(const io::ContainerReader& container, size_t layer, size_t su
 /// What the table says of an exact lattice; origin and unit must be those of its step.
 void CompleteExact(const io::FileTable& table, ExactLattice* exact) {
   ExactStep& step = exact->step;
-  step.is_float = static_cast<io::ScalarType>(table.coordinate_type) == io::ScalarType::kFloat32;
+  step.is_float = static_cast<ScalarType>(table.coordinate_type) == ScalarType::kFloat32;
   bool agrees = table.unit == step.Unit();
   for (size_t axis = 0; agrees && axis < 3; ++axis) {
     const double first = std::floor(step.Scaled(table.origin[axis]) + 0.5);
@@ -57,11 +57,7 @@ CodecParameters ParametersOf(const io::FileTable& table, size_t layers_total) {
   CodecParameters parameters =
       ReadParameters(table.codec, {table.extent[0], table.extent[1], table.extent[2]});
   if (parameters.exact) CompleteExact(table, &*parameters.exact);
-  for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
-    const io::AttributeRange& range = table.attribute_ranges[a];
-    parameters.attributes.push_back(
-        {table.schema.attributes[a].type, range.least, range.most, NormalAxis(table.schema, a)});
-  }
+  parameters.attributes = ValueSpansOf(table.schema, table.attribute_ranges);
   if (!parameters.attributes.empty() && parameters.settings.offsets != Offsets::kLattice) {
     throw Failure(ErrorKind::kCorrupt, "attributes in a file of other offsets than the lattice's");
   }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "engine/codec/leaf_signs.h"
 #include "engine/entropy/bit_coder.h"
+#include "engine/entropy/even_code.h"
 
 namespace folprom {
 namespace {
@@ -14,13 +14,10 @@ namespace {
 /// Coordinate `value` in [lo, hi], all equally likely.
 template <class Coder>
 int32_t CodeCoordinate(Coder& coder, int32_t lo, int32_t hi, int32_t value) {
-  uint32_t span = static_cast<uint32_t>(hi) - static_cast<uint32_t>(lo), result = 0;
-  uint32_t offset = static_cast<uint32_t>(value) - static_cast<uint32_t>(lo);
-  for (int bit = static_cast<int>(std::bit_width(span)) - 1; bit >= 0; --bit) {
-    result |= static_cast<uint32_t>(coder.Code(32768, (offset >> bit) & 1)) << bit;
-  }
-  if (result > span) throw Failure(ErrorKind::kCorrupt, "coded root lies outside its box");
-  return lo + static_cast<int32_t>(result);
+  const uint32_t most = static_cast<uint32_t>(hi) - static_cast<uint32_t>(lo);
+  const uint32_t offset = static_cast<uint32_t>(value) - static_cast<uint32_t>(lo);
+  return lo +
+         static_cast<int32_t>(CodeEvenly(coder, most, offset, "coded root lies outside its box"));
 }
 
 float Distance(const Int3& a, const Int3& b) {

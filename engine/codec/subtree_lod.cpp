@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/connectivity/area_normal.h"
+
 namespace folprom {
 
 double SubtreeLod::Spacing(uint32_t set) const {
@@ -41,13 +43,7 @@ RingShape SubtreeLod::ShapeAround(uint32_t set) {
 
 double SubtreeLod::HeightRange(uint32_t set) const {
   const Int3& centre = positions[set];
-  Vector3 normal{0, 0, 0};
-  for (const uint32_t corner : complex.Corners(set)) {
-    const auto [a, b] = complex.Opposite(corner);
-    const Vector3 cross =
-        Cross(Difference(positions[a], centre), Difference(positions[b], centre));
-    for (size_t i = 0; i < 3; ++i) normal[i] = normal[i] + cross[i];
-  }
+  const Vector3 normal = AreaNormal(complex, positions, set);
   double low = 0, high = 0;
   for (const auto& spoke : complex.Spokes(set)) {
     const double height = Dot(Difference(positions[spoke.target], centre), normal);

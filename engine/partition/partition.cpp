@@ -81,7 +81,7 @@ class SpilledScan final : public PartitionedScan {
   }
 
   uint64_t peak_spill_bytes() const override { return peak_spill_bytes_; }
-  std::span<const ValueRange> attribute_ranges() const override { return ranges_; }
+  std::span<const io::AttributeRange> attribute_ranges() const override { return ranges_; }
 
   std::span<const VertexRef> vertex_map() const override {
     return io::MappedArray<VertexRef>(vertex_map_);
@@ -93,7 +93,7 @@ class SpilledScan final : public PartitionedScan {
   io::SpillStreams faces_;
   io::SpillStreams cross_faces_;
   std::optional<io::SpillStreams> exact_, attributes_;
-  std::vector<ValueRange> ranges_;
+  std::vector<io::AttributeRange> ranges_;
   io::MappedFile vertex_map_;
   uint64_t peak_spill_bytes_ = 0;
 };

@@ -24,13 +24,6 @@ struct PartitionSettings {
   bool normal_metric = true;           ///< false: Euclidean distance only
 };
 
-/// Least and largest value of an attribute, as ordered numbers (engine/attributes/value.h). Least
-/// is above largest where there is no vertex.
-struct ValueRange {
-  uint64_t least = ~uint64_t{0};
-  uint64_t most = 0;
-};
-
 /// One subtree, mapped from the spill. Valid while the object lives.
 struct SubtreeChunk {
   std::span<const Int3> positions;         ///< vertices in the order of the input file
@@ -61,7 +54,7 @@ class PartitionedScan {
   /// Bytes that the spill folder held before the passes removed what only they need.
   virtual uint64_t peak_spill_bytes() const = 0;
   /// Of each attribute of the source, where they are kept.
-  virtual std::span<const ValueRange> attribute_ranges() const = 0;
+  virtual std::span<const io::AttributeRange> attribute_ranges() const = 0;
   /// Input vertex index -> (subtree, local); mapped, in the order of the file.
   virtual std::span<const VertexRef> vertex_map() const = 0;
 };

@@ -28,7 +28,7 @@ struct VertexBlock {
   std::vector<uint8_t> attributes;
   SubtreeGroups<uint32_t> places;  // in the block, of the vertices
   std::vector<uint8_t> sorted_attributes;
-  std::vector<ValueRange> ranges;
+  std::vector<io::AttributeRange> ranges;
 };
 
 // A cross face and the subtrees that it touches: two or three different ones, ascending.
@@ -142,22 +142,25 @@ void CollectExact(Job& job, size_t index, size_t subtree_count, VertexBlock* blo
   block->exact.Sort();
 }
 
+// Of no vertex yet.
+constexpr io::AttributeRange kNoValues{~uint64_t{0}, 0};
+
 // The attributes of the block as the scan has them, by subtree, and their ranges.
 void CollectAttributes(Job& job, size_t index, size_t subtree_count, VertexBlock* block) {
   const io::VertexSchema& schema = job.source.vertex_schema();
   const size_t stride = schema.Stride();
   job.source.ReadVertexAttributes(index, &block->attributes).value();
-  block->ranges.assign(schema.attributes.size(), {});
+  block->ranges.assign(schema.attributes.size(), kNoValues);
   size_t offset = 0;
   for (size_t a = 0; a < schema.attributes.size(); ++a) {
-    const io::ScalarType type = schema.attributes[a].type;
-    ValueRange& range = block->ranges[a];
+    const ScalarType type = schema.attributes[a].type;
+    io::AttributeRange& range = block->ranges[a];
     for (size_t i = offset; i < block->attributes.size(); i += stride) {
       const uint64_t value = OrderedOf(type, &block->attributes[i]);
       range.least = std::min(range.least, value);
       range.most = std::max(range.most, value);
     }
-    offset += io::ScalarSize(type);
+    offset += ScalarSize(type);
   }
   block->places.Start(subtree_count, block->refs.size());
   for (uint32_t i = 0; i < block->refs.size(); ++i) block->places.Add(block->refs[i].subtree, i);
@@ -178,13 +181,15 @@ void AppendAttributes(VertexBlock* block, size_t stride, io::SpillStreams& strea
 
 }  // namespace
 
-std::vector<ValueRange> ScatterVertices(Job& job, const OffsetFile& records,
-                                        std::span<const uint32_t> subtree_of_voxel,
-                                        size_t subtree_count, OffsetFile& vertex_map,
-                                        const VertexStreams& streams) {
+std::vector<io::AttributeRange> ScatterVertices(Job& job, const OffsetFile& records,
+                                                std::span<const uint32_t> subtree_of_voxel,
+                                                size_t subtree_count, OffsetFile& vertex_map,
+                                                const VertexStreams& streams) {
   const size_t stride = job.source.vertex_schema().Stride();
-  std::vector<ValueRange> ranges;
-  if (streams.attributes != nullptr) ranges.resize(job.source.vertex_schema().attributes.size());
+  std::vector<io::AttributeRange> ranges;
+  if (streams.attributes != nullptr) {
+    ranges.assign(job.source.vertex_schema().attributes.size(), kNoValues);
+  }
   BlockPool<VertexBlock> pool;
   std::vector<uint32_t> next_local(subtree_count);
   const auto produce = [&](size_t index) {

@@ -22,10 +22,10 @@ struct VertexStreams {
 /// Appends each vertex's values to the streams of its subtree and writes a VertexRef per vertex.
 /// `subtree_of_voxel` gives the subtree of each voxel that a VertexRecord names. Returns the range
 /// of each attribute.
-std::vector<ValueRange> ScatterVertices(Job& job, const OffsetFile& records,
-                                        std::span<const uint32_t> subtree_of_voxel,
-                                        size_t subtree_count, OffsetFile& vertex_map,
-                                        const VertexStreams& streams);
+std::vector<io::AttributeRange> ScatterVertices(Job& job, const OffsetFile& records,
+                                                std::span<const uint32_t> subtree_of_voxel,
+                                                size_t subtree_count, OffsetFile& vertex_map,
+                                                const VertexStreams& streams);
 
 /// Appends each triangle as a Face to the stream of its subtree, or as a CrossFace to the stream of
 /// each subtree that it touches. Fills in the face counts and neighbours of `subtrees`.

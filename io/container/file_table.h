@@ -57,14 +57,6 @@ struct SubtreeRecord {
   bool operator==(const SubtreeRecord&) const = default;
 };
 
-/// Least and largest value of an attribute, as whole numbers in the order of the values; see
-/// FORMAT.md.
-struct AttributeRange {
-  uint64_t least = 0;
-  uint64_t most = 0;
-  bool operator==(const AttributeRange&) const = default;
-};
-
 /// A segment is named by (layer, subtree, part).
 enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
 
@@ -73,7 +65,7 @@ enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
 struct FileTable {
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  uint8_t coordinate_type = 6;      ///< io::ScalarType of the output: 6 float32, 7 float64
+  uint8_t coordinate_type = 6;      ///< ScalarType of the output: 6 float32, 7 float64
   std::array<double, 3> origin{};   ///< lattice
   double unit = 1;                  ///< lattice
   std::array<int32_t, 3> extent{};  ///< lattice, 0 .. 2^30 - 1

@@ -8,7 +8,7 @@ namespace folprom::io {
 namespace {
 
 constexpr int32_t kMaxCoordinate = (1 << 30) - 1;
-constexpr uint8_t kFloat32 = 6, kFloat64 = 7;  // as io::ScalarType numbers them
+constexpr uint8_t kFloat32 = 6, kFloat64 = 7;  // as ScalarType numbers them
 constexpr uint64_t kMaxSum = uint64_t{1} << 62;
 
 std::string LatticeFault(const FileTable& table) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "folprom/result.h"
-#include "io/formats/scalar_type.h"
+#include "folprom/scalar_type.h"
 #include "io/formats/vertex_schema.h"
 
 namespace folprom::io {

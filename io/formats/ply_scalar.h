@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "folprom/float_bits.h"
-#include "io/formats/scalar_type.h"
+#include "folprom/scalar_type.h"
 
 namespace folprom::io {
 

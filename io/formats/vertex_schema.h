@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/formats/scalar_type.h"
+#include "folprom/scalar_type.h"
 
 namespace folprom::io {
 
@@ -47,5 +47,13 @@ inline bool IsRemark(std::string_view line) {
   return (first == "comment" || first == "obj_info") &&
          line.find_first_of(std::string_view("\n\r\0", 3)) == std::string_view::npos;
 }
+
+/// Least and largest value of an attribute, as whole numbers in the order of the values; see
+/// FORMAT.md.
+struct AttributeRange {
+  uint64_t least = 0;
+  uint64_t most = 0;
+  bool operator==(const AttributeRange&) const = default;
+};
 
 }  // namespace folprom::io

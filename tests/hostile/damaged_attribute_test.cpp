@@ -143,7 +143,7 @@ TEST(DamagedAttributeTest, AChangedValueIsNoticedByVerify) {
 
 TEST(DamagedAttributeTest, AttributesOfTheCoderOfThePaperAreCorrupt) {
   Parts parts = TakeApart(SmallFile(Hierarchy::kLloyd));
-  parts.table.schema.attributes = {{"red", io::ScalarType::kUint8}};
+  parts.table.schema.attributes = {{"red", ScalarType::kUint8}};
   parts.table.attribute_ranges = {{0, 255}};
   parts.table.attribute_bits = {0};
   ErrorKind error;

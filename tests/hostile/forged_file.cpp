@@ -74,7 +74,7 @@ Bytes Forged(const std::vector<Int3>& positions, const std::vector<Face>& faces,
   Parts parts;
   parts.table.vertices = count;
   parts.table.faces = announced_faces;
-  parts.table.coordinate_type = static_cast<uint8_t>(io::ScalarType::kFloat32);
+  parts.table.coordinate_type = static_cast<uint8_t>(ScalarType::kFloat32);
   parts.table.extent = {kSide, kSide, kSide};
   parts.table.tolerance = 1;
   parts.table.codec = WriteParameters(parameters);

@@ -75,7 +75,7 @@ TEST_F(AttributeTest, CoincidentAndIsolatedVerticesKeepTheirOwn) {
   AttributeMesh content{{}, 0, {}};
   content.mesh.positions = {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 0}, {0, 0, 0}, {5, 5, 5}};
   content.mesh.faces = {{0, 1, 2}, {3, 2, 1}};
-  DecodedAttribute label{"label", AttributeType::kUint16, {}};
+  DecodedAttribute label{"label", ScalarType::kUint16, {}};
   for (const uint16_t value : std::array<uint16_t, 6>{11, 22, 33, 44, 55, 66}) {
     AppendValue(value, &label);
   }
@@ -87,7 +87,7 @@ TEST_F(AttributeTest, CoincidentAndIsolatedVerticesKeepTheirOwn) {
 TEST_F(AttributeTest, SingleVerticesKeepThem) {
   AttributeMesh content{{}, 0, {}};
   content.mesh.positions = {{1, 2, 3}};
-  content.mesh.attributes = {{"quality", AttributeType::kFloat32, {0, 0, 0xc0, 0x7f}}};
+  content.mesh.attributes = {{"quality", ScalarType::kFloat32, {0, 0, 0xc0, 0x7f}}};
   Code(content, ExactOptions());
   ExpectWhole();
 }
@@ -188,7 +188,7 @@ TEST_F(AttributeTest, UnitNormalsCostLittleInTheirLastComponent) {
   AttributeMesh content{BumpySphere(3000, false, 1), 0, {}};
   std::vector<DecodedAttribute> normals;
   for (const char* name : {"nx", "ny", "nz"}) {
-    normals.push_back({name, AttributeType::kFloat32, {}});
+    normals.push_back({name, ScalarType::kFloat32, {}});
   }
   for (const Point& p : content.mesh.positions) {
     const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
@@ -278,7 +278,7 @@ TEST_F(AttributeTest, InfoTellsOfThem) {
   ASSERT_EQ(info.attributes.size(), 4u);
   for (size_t a = 0; a < 4; ++a) {
     EXPECT_EQ(info.attributes[a].name, content.mesh.attributes[a].name);
-    EXPECT_EQ(info.attributes[a].type, AttributeType::kUint8);
+    EXPECT_EQ(info.attributes[a].type, ScalarType::kUint8);
     EXPECT_NEAR(info.attributes[a].bits, report.attributes[a].bits, 1);
   }
   EXPECT_EQ(info.remarks, content.comments);

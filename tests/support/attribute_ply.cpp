@@ -19,10 +19,10 @@ namespace {
 constexpr std::array<const char*, 8> kNames{"char", "uchar", "short", "ushort",
                                             "int",  "uint",  "float", "double"};
 
-AttributeType TypeNamed(const std::string& name) {
+ScalarType TypeNamed(const std::string& name) {
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) throw std::runtime_error("PLY type " + name);
-  return static_cast<AttributeType>(found - kNames.begin());
+  return static_cast<ScalarType>(found - kNames.begin());
 }
 
 template <class T>
@@ -32,7 +32,7 @@ void Append(std::string* bytes, T value) {
 
 void AppendRow(const Mesh& mesh, size_t vertex, size_t begin, size_t end, std::string* bytes) {
   for (size_t a = begin; a < end; ++a) {
-    const size_t size = SizeOf(mesh.attributes[a].type);
+    const size_t size = ScalarSize(mesh.attributes[a].type);
     bytes->append(reinterpret_cast<const char*>(&mesh.attributes[a].values[vertex * size]), size);
   }
 }
@@ -96,7 +96,7 @@ T Special(Random& random) {
 }
 
 template <class T>
-DecodedAttribute Smooth(const char* name, AttributeType type, const Mesh& mesh, uint64_t seed) {
+DecodedAttribute Smooth(const char* name, ScalarType type, const Mesh& mesh, uint64_t seed) {
   Random random(seed);
   DecodedAttribute attribute{name, type, {}};
   for (const Point& p : mesh.positions) {
@@ -112,11 +112,6 @@ DecodedAttribute Smooth(const char* name, AttributeType type, const Mesh& mesh, 
 }
 
 }  // namespace
-
-size_t SizeOf(AttributeType type) {
-  constexpr std::array<size_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<size_t>(type)];
-}
 
 void WriteAttributes(const std::string& path, const AttributeMesh& content) {
   const Mesh& mesh = content.mesh;
@@ -184,7 +179,7 @@ AttributeMesh ReadAttributes(const std::string& path) {
         }
       }
       if (a == attributes.size()) break;
-      const size_t size = SizeOf(attributes[a].type);
+      const size_t size = ScalarSize(attributes[a].type);
       const char* value = front.Take(size);
       attributes[a].values.insert(attributes[a].values.end(), value, value + size);
     }
@@ -215,21 +210,21 @@ std::vector<std::string> AttributeRows(const Mesh& mesh) {
 }
 
 std::vector<DecodedAttribute> EveryType(const Mesh& mesh, uint64_t seed) {
-  return {Smooth<int8_t>("a_char", AttributeType::kInt8, mesh, seed),
-          Smooth<uint8_t>("a_uchar", AttributeType::kUint8, mesh, seed + 1),
-          Smooth<int16_t>("a_short", AttributeType::kInt16, mesh, seed + 2),
-          Smooth<uint16_t>("a_ushort", AttributeType::kUint16, mesh, seed + 3),
-          Smooth<int32_t>("an_int", AttributeType::kInt32, mesh, seed + 4),
-          Smooth<uint32_t>("a_uint", AttributeType::kUint32, mesh, seed + 5),
-          Smooth<float>("a_float", AttributeType::kFloat32, mesh, seed + 6),
-          Smooth<double>("a_double", AttributeType::kFloat64, mesh, seed + 7)};
+  return {Smooth<int8_t>("a_char", ScalarType::kInt8, mesh, seed),
+          Smooth<uint8_t>("a_uchar", ScalarType::kUint8, mesh, seed + 1),
+          Smooth<int16_t>("a_short", ScalarType::kInt16, mesh, seed + 2),
+          Smooth<uint16_t>("a_ushort", ScalarType::kUint16, mesh, seed + 3),
+          Smooth<int32_t>("an_int", ScalarType::kInt32, mesh, seed + 4),
+          Smooth<uint32_t>("a_uint", ScalarType::kUint32, mesh, seed + 5),
+          Smooth<float>("a_float", ScalarType::kFloat32, mesh, seed + 6),
+          Smooth<double>("a_double", ScalarType::kFloat64, mesh, seed + 7)};
 }
 
 std::vector<DecodedAttribute> Colours(const Mesh& mesh, uint64_t seed) {
   Random random(seed);
   std::vector<DecodedAttribute> colours;
   for (const char* name : {"red", "green", "blue", "alpha"}) {
-    colours.push_back({name, AttributeType::kUint8, {}});
+    colours.push_back({name, ScalarType::kUint8, {}});
   }
   for (const Point& p : mesh.positions) {
     const auto x = static_cast<int64_t>(p[0]), y = static_cast<int64_t>(p[1]);

@@ -21,8 +21,6 @@ void WriteAttributes(const std::string& path, const AttributeMesh& content);
 /// Of such a file, or one whose coordinates are floats. Throws std::runtime_error on anything else.
 AttributeMesh ReadAttributes(const std::string& path);
 
-/// Bytes of a value.
-size_t SizeOf(AttributeType type);
 /// Appends a value.
 template <class T>
 void AppendValue(T value, DecodedAttribute* attribute) {

@@ -35,7 +35,7 @@ void WriteTorus(const std::string& path) {
     }
   }
   auto writer = folprom::io::MeshWriter::Create(
-      path, {xyz.size() / 3, faces.size(), folprom::io::ScalarType::kFloat32}, true);
+      path, {xyz.size() / 3, faces.size(), folprom::ScalarType::kFloat32}, true);
   writer.value()->AppendVertices(xyz).value();
   writer.value()->AppendFaces(faces).value();
   writer.value()->Commit().value();

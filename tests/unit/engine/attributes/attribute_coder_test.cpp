@@ -11,7 +11,7 @@
 namespace folprom {
 namespace {
 
-using enum io::ScalarType;
+using enum ScalarType;
 
 /// What a split adds to a complex: a vertex, perhaps joined to its parent, perhaps a face.
 struct Step {
@@ -46,11 +46,11 @@ class AttributeCoderTest : public ::testing::Test {
 
   AttributeCoderTest() {
     for (const auto type : {kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64}) {
-      spans_.push_back({type, 0, io::LargestOrdered(type)});
+      spans_.push_back({type, 0, LargestOrdered(type)});
     }
     for (const auto type : {kFloat32, kFloat64}) {
       for (uint32_t axis = 1; axis <= 3; ++axis) {
-        spans_.push_back({type, 0, io::LargestOrdered(type), axis});
+        spans_.push_back({type, 0, LargestOrdered(type), axis});
       }
     }
     spans_.push_back({kUint16, 7, 7});

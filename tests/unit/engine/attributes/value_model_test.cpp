@@ -11,7 +11,7 @@
 namespace folprom {
 namespace {
 
-using enum io::ScalarType;
+using enum ScalarType;
 using Model = ValueModel<1, 2>;
 
 struct Sample {
@@ -42,9 +42,9 @@ TEST(ValueModelTest, AnyValueComesBackUnderAnyPrediction) {
   std::mt19937_64 random(1);
   const double means[] = {0, 1e300, -1e300, 1e-300, -0.25, 3e38, 255, 4e9};
   const double scales[] = {1e-40, 1e-7, 1, 1e30, 1e300};
-  for (const io::ScalarType type :
+  for (const ScalarType type :
        {kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64}) {
-    const uint64_t most = io::LargestOrdered(type);
+    const uint64_t most = LargestOrdered(type);
     for (const ValueSpan& span : {ValueSpan{type, 0, most}, ValueSpan{type, most / 3, most / 2},
                                   ValueSpan{type, most - 1, most}, ValueSpan{type, 5, 5}}) {
       std::vector<Sample> samples;
@@ -77,7 +77,7 @@ TEST(ValueModelTest, FloatsNearTheirPredictionCostTheirNoise) {
     const uint64_t ordered = NearestOrdered(kFloat32, static_cast<double>(value));
     samples.push_back({ordered, {ValuePrediction{mean, 6e-5}, ValuePrediction{0.5, 0.2}}});
   }
-  const double bits = RoundTrip({kFloat32, 0, io::LargestOrdered(kFloat32)}, samples) / 4000;
+  const double bits = RoundTrip({kFloat32, 0, LargestOrdered(kFloat32)}, samples) / 4000;
   // A normal density of this width over steps of 2^-24 has 12.8 bits.
   EXPECT_LT(bits, 13.1);
   EXPECT_GT(bits, 12.5);

@@ -13,20 +13,20 @@
 namespace folprom {
 namespace {
 
-using enum io::ScalarType;
+using enum ScalarType;
 
-constexpr io::ScalarType kAllTypes[] = {kInt8,  kUint8,  kInt16,   kUint16,
-                                        kInt32, kUint32, kFloat32, kFloat64};
+constexpr ScalarType kAllTypes[] = {kInt8,  kUint8,  kInt16,   kUint16,
+                                    kInt32, kUint32, kFloat32, kFloat64};
 
 template <class T>
-uint64_t Ordered(io::ScalarType type, T value) {
+uint64_t Ordered(ScalarType type, T value) {
   uint8_t bytes[sizeof(T)];
   std::memcpy(bytes, &value, sizeof value);
   return OrderedOf(type, bytes);
 }
 
 template <class T>
-void ExpectAscending(io::ScalarType type, const std::vector<T>& values) {
+void ExpectAscending(ScalarType type, const std::vector<T>& values) {
   for (size_t i = 1; i < values.size(); ++i) {
     EXPECT_LT(Ordered(type, values[i - 1]), Ordered(type, values[i])) << values[i];
   }
@@ -47,8 +47,8 @@ TEST(AttributeValueTest, IsOrderedAsTheNumbersAre) {
 
 TEST(AttributeValueTest, EveryBitComesBack) {
   std::mt19937_64 random(1);
-  for (const io::ScalarType type : kAllTypes) {
-    const size_t size = io::ScalarSize(type);
+  for (const ScalarType type : kAllTypes) {
+    const size_t size = ScalarSize(type);
     for (int i = 0; i < 3000; ++i) {
       uint8_t bytes[8], back[8];
       const uint64_t bits = i == 0 ? 0 : i == 1 ? ~uint64_t{0} : random();
@@ -63,7 +63,7 @@ TEST(AttributeValueTest, EveryBitComesBack) {
 
 TEST(AttributeValueTest, BoundariesNeverFallAndPartTheValues) {
   std::mt19937_64 random(2);
-  for (const io::ScalarType type : kAllTypes) {
+  for (const ScalarType type : kAllTypes) {
     std::vector<uint64_t> ordered{1, 2, LargestOrdered(type)};
     for (int i = 0; i < 2000; ++i) ordered.push_back(random() % LargestOrdered(type) + 1);
     std::sort(ordered.begin(), ordered.end());

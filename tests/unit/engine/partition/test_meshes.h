@@ -55,7 +55,7 @@ class TestSource final : public io::MeshSource {
   const std::string& path() const override { return path_; }
   uint64_t vertex_count() const override { return mesh_.positions.size(); }
   uint64_t triangle_count() const override { return mesh_.triangles.size(); }
-  io::ScalarType coordinate_type() const override { return io::ScalarType::kFloat64; }
+  ScalarType coordinate_type() const override { return ScalarType::kFloat64; }
   size_t vertex_block_count() const override;
   uint64_t vertex_block_begin(size_t block) const override;
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override;

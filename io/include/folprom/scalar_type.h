@@ -1,10 +1,10 @@
-// The eight types that a number of a file can have.
+// The eight types that a number of a file can have, by PLY's numbers of them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-namespace folprom::io {
+namespace folprom {
 
 enum class ScalarType : uint8_t {
   kInt8 = 0,
@@ -17,6 +17,13 @@ enum class ScalarType : uint8_t {
   kFloat64
 };
 inline constexpr size_t kScalarTypes = 8;
+
+/// "uint8", "float32" ...
+constexpr const char* NameOf(ScalarType type) {
+  constexpr const char* kNames[] = {"int8",  "uint8",  "int16",   "uint16",
+                                    "int32", "uint32", "float32", "float64"};
+  return kNames[static_cast<size_t>(type)];
+}
 
 /// In bytes.
 constexpr size_t ScalarSize(ScalarType type) {
@@ -33,4 +40,4 @@ constexpr uint64_t LargestOrdered(ScalarType type) {
   return ~uint64_t{0} >> (64 - 8 * ScalarSize(type));
 }
 
-}  // namespace folprom::io
+}  // namespace folprom

@@ -1,8 +1,11 @@
-// Which attributes are the normal of the surface.
+// What the coder knows of each attribute before the first value.
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "engine/attributes/value_model.h"
 #include "io/formats/vertex_schema.h"
 
 namespace folprom {
@@ -16,11 +19,22 @@ inline uint32_t NormalAxis(const io::VertexSchema& schema, size_t attribute) {
     bool found = true;
     for (size_t i = 0; i < 3; ++i) {
       const io::VertexAttribute& one = all[attribute - axis + i];
-      found &= one.name == kNames[i] && io::IsFloat(one.type);
+      found &= one.name == kNames[i] && IsFloat(one.type);
     }
     if (found) return static_cast<uint32_t>(axis) + 1;
   }
   return 0;
+}
+
+/// Ranges: of each attribute.
+inline std::vector<ValueSpan> ValueSpansOf(const io::VertexSchema& schema,
+                                           std::span<const io::AttributeRange> ranges) {
+  std::vector<ValueSpan> spans;
+  for (size_t a = 0; a < schema.attributes.size(); ++a) {
+    spans.push_back(
+        {schema.attributes[a].type, ranges[a].least, ranges[a].most, NormalAxis(schema, a)});
+  }
+  return spans;
 }
 
 }  // namespace folprom

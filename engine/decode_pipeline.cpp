@@ -15,11 +15,11 @@ namespace {
 constexpr uint64_t kBytesPerVertex = 620, kExactBytesPerVertex = 48, kAttributeBytesPerVertex = 24;
 
 /// How many subtrees may be under way or waiting for their turn.
-size_t WindowOf(const io::FileTable& table, const std::vector<uint32_t>& subtrees, bool has_rests,
+size_t WindowOf(const io::FileTable& table, const std::vector<uint32_t>& subtrees, bool off_lattice,
                 uint64_t memory_bytes, int threads) {
   uint64_t largest = 1;
   for (uint32_t s : subtrees) largest = std::max<uint64_t>(largest, table.subtrees[s].vertices);
-  uint64_t per_vertex = kBytesPerVertex + (has_rests ? kExactBytesPerVertex : 0) +
+  uint64_t per_vertex = kBytesPerVertex + (off_lattice ? kExactBytesPerVertex : 0) +
                         kAttributeBytesPerVertex * table.schema.attributes.size();
   const uint64_t models = table.schema.attributes.size() * AttributeCoder::kModelBytes;
   uint64_t fitting = memory_bytes / 2 / (largest * per_vertex + models);
@@ -43,6 +43,8 @@ class Pipeline {
       : container_(container),
         table_(container.table()),
         parameters_(parameters),
+        lattice_(LatticeOf(table_, parameters_)),
+        error_bound_(static_cast<double>(table_.layers[selection.layers - 1].error_bound)),
         selection_(selection),
         needed_(NeededSubtrees(table_, selection.wanted)),
         has_border_(SubtreesWithBorder(table_)),
@@ -69,8 +71,8 @@ class Pipeline {
     uint64_t vertices = 0;
     for (uint32_t s : needed_) vertices += table_.subtrees[s].vertices;
     progress_.StartStage("decode", vertices, "vertices");
-    size_t window =
-        WindowOf(table_, needed_, parameters_.has_rests(), memory_bytes_, runner_.threads());
+    const bool drawn = parameters_.has_rests() || parameters_.fits_lods();
+    size_t window = WindowOf(table_, needed_, drawn, memory_bytes_, runner_.threads());
     std::vector<DecodedPart> parts(needed_.size());
     runner_.Ordered(
         needed_.size(), window, [&](size_t i) { parts[i] = DecodeSubtree(needed_[i]); },
@@ -90,7 +92,7 @@ class Pipeline {
     for (size_t layer = 0; layer < selection_.layers; ++layer) reader.DecodeLayer();
     DecodedPart part;
     part.positions = reader.state().positions();
-    part.exact = reader.state().exact_positions();
+    part.exact = reader.state().DrawnPositions(lattice_, error_bound_);
     part.attributes = reader.state().Attributes();
     reader.state().AppendFaces(&part.faces);
     if (has_border_[subtree]) {
@@ -141,6 +143,8 @@ class Pipeline {
   const io::ContainerReader& container_;
   const io::FileTable& table_;
   const CodecParameters& parameters_;
+  Lattice lattice_;
+  double error_bound_;  ///< of the layer that is decoded
   const DecodeSelection& selection_;
   std::vector<uint32_t> needed_;
   std::vector<bool> has_border_;

@@ -350,6 +350,8 @@ io::FileTable EncodeJob::MakeTable() {
     // whole one where rests follow in the last layer.
     double rounding = parameters_.exact ? 2 : 1;
     double bound = outcomes_.empty() ? 0 : (distance + rounding) * resolution_.lattice.unit;
+    // Vertices that stand for others may be drawn off the mesh.
+    if (parameters_.fits_lods() && record.vertices < table.vertices) bound /= 1 - kShiftPart;
     record.error_bound = io::NextErrorBound(bound);
     if (parameters_.exact && layer == kept_layers_.back()) record.error_bound = 0;
     table.layers.push_back(record);

@@ -114,6 +114,7 @@ Result<void> MemoryDecoder::DecodeNextLayer() {
 DecodedMesh MemoryDecoder::Mesh() const {
   const io::FileTable& table = impl_->container.table();
   const Lattice lattice = LatticeOf(table, impl_->parameters);
+  const double bound = error_bound();
   DecodedMesh mesh;
   mesh.is_float = static_cast<ScalarType>(table.coordinate_type) == ScalarType::kFloat32;
   for (const io::VertexAttribute& attribute : table.schema.attributes) {
@@ -125,7 +126,7 @@ DecodedMesh MemoryDecoder::Mesh() const {
   for (const SubtreeReader& subtree : impl_->subtrees) {
     base.push_back(mesh.positions.size());
     border.push_back(subtree.state().BorderVertices());
-    const std::vector<ExactPosition>& exact = subtree.state().exact_positions();
+    const std::vector<ExactPosition> exact = subtree.state().DrawnPositions(lattice, bound);
     mesh.positions.insert(mesh.positions.end(), exact.begin(), exact.end());
     for (const Int3& p : subtree.state().positions()) {
       if (exact.empty()) mesh.positions.push_back(lattice.ToModel(p));

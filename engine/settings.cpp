@@ -89,6 +89,11 @@ constexpr SettingKey kKeys[] = {
      "between cells of the density over the tangent plane, with offsets = \"lattice\"; 0: none",
      "twentieths of the spacing", 0, 4},
     {"mixers", &S::mixers, "mixers that a decision averages, with offsets = \"lattice\"", "", 1, 2},
+    {"lod_fit", &S::lod_fit,
+     "vertices of LODs are drawn off the mesh so that their faces are nearest to it, with offsets "
+     "= "
+     "\"lattice\"; false: at vertices of the mesh",
+     ""},
 };
 
 std::string NumberText(double value) {

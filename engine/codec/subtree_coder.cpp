@@ -48,6 +48,7 @@ SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape
   } else {
     cylinder_children_.emplace(parameters.offsets(), parameters.children(), parameters.extent);
   }
+  if (parameters.fits_lods()) fit_.emplace();
   if (!parameters.attributes.empty()) attributes_.emplace(parameters.attributes);
   if (const InitialStatistics* start = parameters.start()) {
     StatisticsLoader loader(*start);
@@ -80,6 +81,8 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
   const bool splits = layer_ < schedule.split_layers();
   if (splits) {
     CodeSplits(coder, truth, meters);
+    coder.SetMeter(&meters->refinement);
+    CodeFit(coder, truth);
   }
   if (cylinder_children_ && !(splits && parameters_.settings.split_first)) {
     coder.SetMeter(&meters->refinement);
@@ -297,6 +300,15 @@ void SubtreeCoder::CodeLatticeRefinement(Coder& coder, const SubtreeTruth* truth
 }
 
 template <class Coder>
+void SubtreeCoder::CodeFit(Coder& coder, const SubtreeTruth* truth) {
+  if (!fit_ || open_.empty() || lod_.size() == fitted_size_) return;
+  fitted_size_ = lod_.size();
+  FitShares chosen{};
+  if constexpr (Coder::kEncoding) chosen = truth->Fit(lod_, open_, fit_->shares());
+  fit_->Code(coder, chosen);
+}
+
+template <class Coder>
 void SubtreeCoder::CodeEndOfSplits(Coder& coder, const SubtreeTruth* truth) {
   if (lod_.size() != shape_.vertices) {
     throw Failure(ErrorKind::kCorrupt, "coded sets do not add up to the vertices of the subtree");
@@ -304,6 +316,22 @@ void SubtreeCoder::CodeEndOfSplits(Coder& coder, const SubtreeTruth* truth) {
   FaceCensus census;
   if constexpr (Coder::kEncoding) census = truth->CountFaces(lod_.complex);
   exceptions_.Code(coder, lod_.complex, Coder::kEncoding ? &census : nullptr);
+}
+
+std::vector<ExactPosition> SubtreeCoder::DrawnPositions(const Lattice& lattice,
+                                                        double error_bound) const {
+  if (!exact_positions_.empty() || !fit_ || open_.empty()) return exact_positions_;
+  std::vector<ExactPosition> drawn;
+  drawn.reserve(lod_.size());
+  for (const Int3& position : lod_.positions) drawn.push_back(lattice.ToModel(position));
+  const double longest = kShiftPart * error_bound / lattice.unit;
+  for (const uint32_t set : open_) {
+    const auto move = FitMoveOf(lod_, set);
+    if (!move) continue;
+    const Vector3 shift = fit_->ShiftOf(*move, longest);
+    for (size_t i = 0; i < 3; ++i) drawn[set][i] = drawn[set][i] + lattice.unit * shift[i];
+  }
+  return drawn;
 }
 
 std::vector<uint32_t> SubtreeCoder::BorderVertices() const {

@@ -14,6 +14,7 @@
 #include "engine/codec/due_coder.h"
 #include "engine/codec/grid_coder.h"
 #include "engine/codec/leaf_model.h"
+#include "engine/codec/lod_fit.h"
 #include "engine/codec/parameters.h"
 #include "engine/codec/precision_coder.h"
 #include "engine/codec/rest_coder.h"
@@ -22,6 +23,7 @@
 #include "engine/connectivity/face_exceptions.h"
 #include "engine/connectivity/split_coder.h"
 #include "engine/geometry/lattice_coder.h"
+#include "engine/mesh/lattice.h"
 #include "engine/mesh/types.h"
 
 namespace folprom {
@@ -51,6 +53,9 @@ class SubtreeCoder {
   const std::vector<Int3>& positions() const { return lod_.positions; }
   /// Of an exact encoding with rests, after the last layer; empty otherwise.
   const std::vector<ExactPosition>& exact_positions() const { return exact_positions_; }
+  /// Where the vertices of the LOD are drawn, model units; empty where it is at positions().
+  /// error_bound: of the layer, model units.
+  std::vector<ExactPosition> DrawnPositions(const Lattice& lattice, double error_bound) const;
   const Complex& complex() const { return lod_.complex; }
   const BorderRecord& border() const { return border_.record(); }
   /// Of the vertices of the LOD, vertex by vertex as the file has them; empty without any.
@@ -114,6 +119,8 @@ class SubtreeCoder {
   template <class Coder>
   void CodeLatticeRefinement(Coder& coder, const SubtreeTruth* truth);
   template <class Coder>
+  void CodeFit(Coder& coder, const SubtreeTruth* truth);
+  template <class Coder>
   void CodeEndOfSplits(Coder& coder, const SubtreeTruth* truth);
 
   CodecParameters parameters_;
@@ -141,6 +148,8 @@ class SubtreeCoder {
   std::optional<GridCoder> grid_;
   std::optional<AttributeCoder> attributes_;
   PrecisionCoder precision_;
+  std::optional<LodFit> fit_;
+  size_t fitted_size_ = 0;  ///< of the LOD whose shares were told last
   DueCoder due_;
   LeafModel leaf_model_;
   BorderCoder border_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/codec/lod_fit.h"
 #include "engine/codec/rest_coder.h"
 #include "engine/connectivity/complex.h"
 #include "engine/connectivity/face_exceptions.h"
@@ -39,6 +40,9 @@ class SubtreeTruth : public RestTruth {
   /// How coarse positions may be, at most `coarsest` bits, while the `open` sets are not split.
   virtual LatticePrecision Precision(const Complex& complex, std::span<const uint32_t> open,
                                      uint32_t coarsest) const = 0;
+  /// Where the vertices of the LOD are best drawn while the `open` sets are not split.
+  virtual FitShares Fit(const SubtreeLod& lod, std::span<const uint32_t> open,
+                        const FitShares& before) const = 0;
   virtual SplitOracle* oracle() = 0;
   /// Final faces, in terms of `complex`, for the exceptions.
   virtual FaceCensus CountFaces(const Complex& complex) const = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/codec/fit_choice.h"
+
 namespace folprom {
 namespace {
 
@@ -131,6 +133,23 @@ Int3 TreeTruth::VertexPosition(uint32_t set) const {
 const uint8_t* TreeTruth::Attributes(uint32_t set) const {
   // The vertex that stands for a set is its first (MergeTree::Flatten).
   return chunk_.attributes.data() + tree_.VerticesOf(node_of_set_[set])[0] * stride_;
+}
+
+FitShares TreeTruth::Fit(const SubtreeLod& lod, std::span<const uint32_t> open,
+                         const FitShares& before) const {
+  size_t vertices = 0;
+  for (const uint32_t set : open) vertices += tree_.VerticesOf(node_of_set_[set]).size();
+  const size_t stride = vertices / kFitSamples + 1;
+  std::vector<FitSample> samples;
+  size_t next = 0;  // of the vertices of the set
+  for (const uint32_t set : open) {
+    const auto members = tree_.VerticesOf(node_of_set_[set]);
+    for (; next < members.size(); next += stride) {
+      samples.push_back({set, chunk_.positions[members[next]]});
+    }
+    next -= members.size();
+  }
+  return ChooseFit(lod, samples, before);
 }
 
 CoordinateRest TreeTruth::Rest(uint32_t set, size_t axis) const {

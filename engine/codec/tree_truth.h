@@ -39,6 +39,8 @@ class TreeTruth final : public SubtreeTruth {
                              uint32_t coarsest) const override {
     return ChoosePrecision(complex, *this, open, coarsest);
   }
+  FitShares Fit(const SubtreeLod& lod, std::span<const uint32_t> open,
+                const FitShares& before) const override;
   SplitOracle* oracle() override { return &oracle_; }
   CoordinateRest Rest(uint32_t set, size_t axis) const override;
   FaceCensus CountFaces(const Complex& complex) const override;

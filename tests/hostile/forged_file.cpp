@@ -43,6 +43,10 @@ class CopyingTruth final : public SubtreeTruth {
   void EndBinarySplit(uint32_t second_set) override { honest_.EndBinarySplit(second_set); }
   Int3 VertexPosition(uint32_t set) const override { return honest_.VertexPosition(set); }
   CoordinateRest Rest(uint32_t, size_t) const override { return {}; }
+  FitShares Fit(const SubtreeLod& lod, std::span<const uint32_t> open,
+                const FitShares& before) const override {
+    return honest_.Fit(lod, open, before);
+  }
   SplitOracle* oracle() override { return honest_.oracle(); }
   FaceCensus CountFaces(const Complex& complex) const override {
     FaceCensus census = honest_.CountFaces(complex);

@@ -75,6 +75,29 @@ TEST_P(ErrorTest, FallsFromLayerToLayerOnASyntheticSurface) {
   EXPECT_LT(ExpectErrorFalls(mesh, folder.File("scan.ply"), options, 7, 2.5e-4), MostLeft());
 }
 
+TEST(LodFit, DrawsLodsOfASmoothSurfaceNearerWithoutMoreBytes) {
+  TemporaryFolder folder;
+  const Mesh mesh = Torus(120, 60);
+  WritePly(folder.File("scan.ply"), mesh, CoordinateType::kDouble);
+  std::vector<double> means[2];
+  for (const bool fit : {false, true}) {
+    EncodeOptions options;
+    options.codec.lod_fit = fit;
+    const std::string folp = folder.File(fit ? "fit.folp" : "plain.folp");
+    Encode(folder.File("scan.ply"), folp, options);
+    means[fit] = MeanErrors(mesh, folp, 3);
+  }
+  EXPECT_LT(FileBytes(folder.File("fit.folp")).size() * 100,
+            FileBytes(folder.File("plain.folp")).size() * 101);
+  const size_t layers = means[0].size();
+  ASSERT_EQ(means[1].size(), layers);
+  for (size_t layer = 0; layer < layers; ++layer) {
+    EXPECT_LE(means[1][layer], means[0][layer] * 1.01) << layer;
+  }
+  EXPECT_LT(means[1][layers / 2], means[0][layers / 2] * 0.8);
+  EXPECT_EQ(means[1].back(), means[0].back());
+}
+
 TEST_P(ErrorTest, FallsFromLayerToLayerOnDragon) {
   std::string scan = SharedFile("scans/dragon_vrip.ply");
   if (scan.empty()) GTEST_SKIP() << kNoSharedData;

@@ -215,9 +215,11 @@ void LodReplay::CollectDecoded() {
     uint64_t base = positions_.size();
     impl_->base.push_back(base);
     impl_->border_vertices.push_back(state.BorderVertices());
+    const std::vector<ExactPosition> drawn =
+        state.DrawnPositions(lattice, error_bound(impl_->layer - 1));
+    positions_.insert(positions_.end(), drawn.begin(), drawn.end());
     for (const Int3& p : state.positions()) {
-      positions_.push_back(
-          {lattice.ToModel(0, p.x), lattice.ToModel(1, p.y), lattice.ToModel(2, p.z)});
+      if (drawn.empty()) positions_.push_back(lattice.ToModel(p));
     }
     std::vector<Face> faces;
     state.AppendFaces(&faces);

@@ -85,6 +85,10 @@ struct CodecSettings {
   /// twentieths of the spacing; 1 .. 4, 0: no density.
   uint32_t density_step = 2;
   uint32_t mixers = 2;  ///< Offsets::kLattice: how many mixers a decision averages; 1 .. 2
+
+  /// Offsets::kLattice: vertices of LODs are drawn off the mesh, on the outer side of its bends,
+  /// where their faces are nearest to it. false: at vertices of the mesh.
+  bool lod_fit = true;
 };
 
 /// The settings with those that effort (1 .. 9, others are left to CheckSettings) stands for:

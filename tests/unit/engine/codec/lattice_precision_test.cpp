@@ -29,6 +29,9 @@ class FlatTruth final : public SubtreeTruth {
     return {set % 2 == 0 ? 0 : 1000, set / 2 == 0 ? 0 : 1000, 500};
   }
   CoordinateRest Rest(uint32_t, size_t) const override { return {}; }
+  FitShares Fit(const SubtreeLod&, std::span<const uint32_t>, const FitShares&) const override {
+    return {};
+  }
   SplitOracle* oracle() override { return nullptr; }
   FaceCensus CountFaces(const Complex&) const override { return {}; }
 

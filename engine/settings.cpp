@@ -88,7 +88,7 @@ constexpr SettingKey kKeys[] = {
     {"density_step", &S::density_step,
      "between cells of the density over the tangent plane, with offsets = \"lattice\"; 0: none",
      "twentieths of the spacing", 0, 4},
-    {"mixers", &S::mixers, "mixers that a decision averages, with offsets = \"lattice\"", "", 1, 2},
+    {"mixers", &S::mixers, "mixers that a decision averages, with offsets = \"lattice\"", "", 1, 3},
     {"lod_fit", &S::lod_fit,
      "vertices of LODs are drawn off the mesh so that their faces are nearest to it, with offsets "
      "= "
@@ -143,8 +143,8 @@ CodecSettings WithEffort(CodecSettings settings, uint32_t effort) {
   constexpr Preset kPresets[] = {{0, 1, 32 * k, 4, 0.01, 0.05},  {4, 1, 32 * k, 4, 0.01, 0.05},
                                  {4, 1, 64 * k, 4, 0.01, 0.05},  {3, 2, 64 * k, 4, 0.01, 0.05},
                                  {2, 2, 128 * k, 4, 0.01, 0.05}, {2, 2, 256 * k, 4, 0.01, 0.05},
-                                 {1, 2, 256 * k, 4, 0.01, 0.05}, {1, 2, 512 * k, 4, 0.03, 0.05},
-                                 {1, 2, 1024 * k, 1, 0.06, 0}};
+                                 {1, 2, 256 * k, 4, 0.01, 0.05}, {1, 3, 512 * k, 4, 0.03, 0.05},
+                                 {1, 3, 1024 * k, 1, 0.06, 0}};
   settings.effort = effort;
   if (effort < 1 || effort > std::size(kPresets)) return settings;
   const Preset& preset = kPresets[effort - 1];

@@ -3,6 +3,7 @@
 // 2005). Integers only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "engine/entropy/fixed_math.h"
 #include "engine/entropy/learned_state.h"
+#include "engine/entropy/probability_map.h"
 
 namespace folprom {
 
@@ -46,15 +48,18 @@ inline constexpr auto kRate = [] {
 
 /// N contexts that learn, E predictions from outside, and a mixer with `sets` weight vectors. With
 /// two mixers what a second one says, whose weights go by how much the contexts have seen, is
-/// averaged in.
+/// averaged in, with three also a third's, whose weights go by the second context; a map then
+/// corrects the outcome halfway.
 template <size_t N, size_t E = 0>
 class MixedModel {
  public:
   /// sizes[i]: number of values of context i.
-  explicit MixedModel(std::array<uint32_t, N> sizes, uint32_t sets = 1, uint32_t mixers = 1) {
+  explicit MixedModel(std::array<uint32_t, N> sizes, uint32_t sets = 1, uint32_t mixers = 1)
+      : map_(mixers > 1 ? sets : 0, detail::kSquash) {
     for (size_t i = 0; i < N; ++i) states_[i].assign(sizes[i], uint32_t{1} << 31);
     weights_.assign(sets, Initial());
-    if (mixers == 2) second_weights_.assign(kSeenSets, Initial());
+    if (mixers > 1) others_.emplace_back(kSeenSets, Initial());
+    if (mixers > 2) others_.emplace_back(sizes[kThirdContext], Initial());
   }
 
   /// predictions: ln(p / (1 - p)) in 1/256, p the probability of `true`; -2047 .. 2047.
@@ -64,28 +69,34 @@ class MixedModel {
     std::array<uint32_t*, N> state;
     std::array<int32_t, N + E> input;
     Weights& weight = weights_[set];
-    int64_t sum = 0;
     for (size_t i = 0; i < N; ++i) {
       state[i] = &states_[i][contexts[i]];
       input[i] = detail::kStretch[*state[i] >> 20];
     }
     for (size_t i = 0; i < E; ++i) input[N + i] = predictions[i];
-    for (size_t i = 0; i < N + E; ++i) sum += static_cast<int64_t>(weight[i]) * input[i];
-    int32_t second_probability = 0;
-    Weights* second = nullptr;
-    if (!second_weights_.empty()) {
-      second = &second_weights_[SeenSet(state)];
-      int64_t second_sum = 0;
-      for (size_t i = 0; i < N + E; ++i) {
-        second_sum += static_cast<int64_t>((*second)[i]) * input[i];
+    int64_t sum = Mix(weight, input);
+    std::array<Weights*, kMostOthers> other;
+    std::array<int32_t, kMostOthers> said;
+    if (!others_.empty()) {
+      const std::array<size_t, kMostOthers> sets{SeenSet(state), contexts[kThirdContext]};
+      for (size_t k = 0; k < others_.size(); ++k) {
+        other[k] = &others_[k][sets[k]];
+        const int64_t own = Mix(*other[k], input);
+        said[k] = Squash(Odds(own));
+        sum += own;
       }
-      second_probability = Squash(second_sum);
-      sum = (sum + second_sum) >> 1;
+      sum /= static_cast<int64_t>(others_.size()) + 1;
     }
-    int32_t probability = Squash(sum);
+    const int32_t odds = Odds(sum), mixed = Squash(odds);
+    // Inside 1 .. 65535: mixed is no nearer to either end than 21.
+    const int32_t probability = map_.empty() ? mixed : (mixed + map_.Refine(set, odds)) / 2;
     bit = coder.Code(static_cast<uint32_t>(probability), bit);
-    Learn(input, (bit ? 65536 : 0) - probability, &weight);
-    if (second != nullptr) Learn(input, (bit ? 65536 : 0) - second_probability, second);
+    if (!map_.empty()) map_.Learn(bit);
+    const int32_t outcome = bit ? 65536 : 0;
+    Learn<kLearning>(input, outcome - mixed, &weight);
+    for (size_t k = 0; k < others_.size(); ++k) {
+      Learn<kOthersLearning>(input, outcome - said[k], other[k]);
+    }
     for (size_t i = 0; i < N; ++i) Update(state[i], bit);
     return bit;
   }
@@ -97,7 +108,8 @@ class MixedModel {
 
  private:
   using Weights = std::array<int32_t, N + E>;
-  static constexpr int kLearning = 12;
+  static constexpr int kLearning = 20, kOthersLearning = 30;
+  static constexpr size_t kMostOthers = 2, kThirdContext = N > 1 ? 1 : 0;
   /// Sets of the second mixer: four steps of how much each of the first three contexts has seen.
   static constexpr size_t kSeenContexts = N < 3 ? N : 3, kSeenSets = size_t{1} << 2 * kSeenContexts;
   /// A probability moves at least by one in so many.
@@ -118,16 +130,19 @@ class MixedModel {
     }
     return set;
   }
-  static int32_t Squash(int64_t sum) {
-    int64_t mixed = sum >> 16;
-    if (mixed > 2047) mixed = 2047;
-    if (mixed < -2047) mixed = -2047;
-    return detail::kSquash[static_cast<size_t>(mixed + 2048)];
+  static int64_t Mix(const Weights& weight, const Weights& input) {
+    int64_t sum = 0;
+    for (size_t i = 0; i < N + E; ++i) sum += static_cast<int64_t>(weight[i]) * input[i];
+    return sum;
   }
+  static int32_t Odds(int64_t sum) {
+    return static_cast<int32_t>(std::clamp<int64_t>(sum >> 16, -2047, 2047));
+  }
+  static int32_t Squash(int32_t odds) { return detail::kSquash[static_cast<size_t>(odds + 2048)]; }
+  template <int kRate>
   static void Learn(const Weights& input, int32_t error, Weights* weight) {
     for (size_t i = 0; i < N + E; ++i) {
-      (*weight)[i] +=
-          static_cast<int32_t>((static_cast<int64_t>(input[i]) * error * kLearning) >> 20);
+      (*weight)[i] += static_cast<int32_t>((static_cast<int64_t>(input[i]) * error * kRate) >> 20);
     }
   }
   /// A state is a probability in its upper 22 bits and a count of decisions in its lower 10.
@@ -143,7 +158,8 @@ class MixedModel {
 
   std::array<std::vector<uint32_t>, N> states_;
   std::vector<Weights> weights_;
-  std::vector<Weights> second_weights_;  ///< empty with one mixer
+  std::vector<std::vector<Weights>> others_;  ///< of the mixers after the first
+  ProbabilityMap map_;                        ///< empty with one mixer
 };
 
 }  // namespace folprom

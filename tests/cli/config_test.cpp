@@ -205,11 +205,11 @@ TEST_F(Config, KeysWinOverTheEffortOfTheFileAndTheFlagOverBoth) {
   const toml::table with_flag = codec({"--effort", "9"});
   EXPECT_EQ(with_flag["effort"].value<int>(), 9);
   EXPECT_EQ(with_flag["density_step"].value<int>(), 1);
-  EXPECT_EQ(with_flag["mixers"].value<int>(), 2);
+  EXPECT_EQ(with_flag["mixers"].value<int>(), 3);
   EXPECT_EQ(with_flag["subtree_vertices"].value<int>(), 1048576);
   const toml::table with_both = codec({"--effort", "9", "--subtree-vertices", "20k"});
   EXPECT_EQ(with_both["subtree_vertices"].value<int>(), 20000);
-  EXPECT_EQ(with_both["mixers"].value<int>(), 2);
+  EXPECT_EQ(with_both["mixers"].value<int>(), 3);
 }
 
 TEST_F(Config, SizesAreReadInEveryForm) {
@@ -253,7 +253,7 @@ TEST_F(Config, ValuesOutOfRangeAreRejected) {
   ExpectRejected("[codec]\neffort = 0\n", 2, "1 .. 9");
   ExpectRejected("[codec]\neffort = 10\n", 2, "1 .. 9");
   ExpectRejected("[codec]\ndensity_step = 5\n", 2, "0 .. 4");
-  ExpectRejected("[codec]\nmixers = 0\n", 2, "1 .. 2");
+  ExpectRejected("[codec]\nmixers = 0\n", 2, "1 .. 3");
   ExpectRejected("[codec]\nmetric_a = 1.5\n", 2, "0 .. 1");
   ExpectRejected("[codec]\nmetric_b = nan\n", 2, "1 .. 64");
   ExpectRejected("[encode]\ntolerance = inf\n", 2, "tolerance");

@@ -21,16 +21,16 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0x86c118044cf8a359;
-constexpr uint64_t kPaperHash = 0xb6c2a1445a6b6ce6;
-constexpr uint64_t kSubtreesHash = 0xd65898c79c37f252;
-constexpr uint64_t kRangeHash = 0xbcb9c95f76f61a3;
-constexpr uint64_t kLeastEffortHash = 0x9f7d9c18e5c0111a;
-constexpr uint64_t kMostEffortHash = 0x805a5a28938dc77e;
-constexpr uint64_t kExactHash = 0xce858486b86ba9cc;
-constexpr uint64_t kExactRestsHash = 0x12c8c781e9b91dfb;
-constexpr uint64_t kOtherHash = 0xc8cc3252a8d612e;
-constexpr uint64_t kAttributesHash = 0xf477dc1eacff754f;
+constexpr uint64_t kDefaultHash = 0xe50c6c0604865020;
+constexpr uint64_t kPaperHash = 0xb9491a2a98d43b08;
+constexpr uint64_t kSubtreesHash = 0xacd901bf22dc329;
+constexpr uint64_t kRangeHash = 0xaffdde908ecd98b3;
+constexpr uint64_t kLeastEffortHash = 0x3b446551723ed231;
+constexpr uint64_t kMostEffortHash = 0x39199a74b7b04a2;
+constexpr uint64_t kExactHash = 0x8e4696ad855d4119;
+constexpr uint64_t kExactRestsHash = 0x931cd5477136984d;
+constexpr uint64_t kOtherHash = 0x686c170d43bdc25d;
+constexpr uint64_t kAttributesHash = 0x969bbd673ad06453;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

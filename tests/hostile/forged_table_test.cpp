@@ -95,7 +95,7 @@ TEST_P(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
   ExpectCorrupt(WithSettings([](S& s) { s.effort = 10; }), "effort 10");
   ExpectCorrupt(WithSettings([](S& s) { s.density_step = 5; }), "density step 5");
   ExpectCorrupt(WithSettings([](S& s) { s.density_step = 0xffffffffu; }), "huge density step");
-  ExpectCorrupt(WithSettings([](S& s) { s.mixers = 3; }), "three mixers");
+  ExpectCorrupt(WithSettings([](S& s) { s.mixers = 4; }), "four mixers");
   ExpectCorrupt(WithSettings([](S& s) { s.children = 1; }), "one child");
   ExpectCorrupt(WithSettings([](S& s) { s.children = 9; }), "nine children");
   ExpectCorrupt(WithSettings([](S& s) { s.hierarchy = static_cast<Hierarchy>(7); }), "hierarchy");

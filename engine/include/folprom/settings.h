@@ -84,7 +84,7 @@ struct CodecSettings {
   /// Offsets::kLattice: between cells of the density of new vertices over the tangent plane, in
   /// twentieths of the spacing; 1 .. 4, 0: no density.
   uint32_t density_step = 2;
-  uint32_t mixers = 2;  ///< Offsets::kLattice: how many mixers a decision averages; 1 .. 2
+  uint32_t mixers = 2;  ///< Offsets::kLattice: how many mixers a decision averages; 1 .. 3
 
   /// Offsets::kLattice: vertices of LODs are drawn off the mesh, on the outer side of its bends,
   /// where their faces are nearest to it. false: at vertices of the mesh.

@@ -76,6 +76,22 @@ TEST(MixedModel, SecondMixerTrustsContextsThatHaveSeenMuch) {
   EXPECT_LT(cost_with(2), 0.98 * cost_with(1));
 }
 
+TEST(MixedModel, ThirdMixerTrustsAContextWhereTheSecondOneSaysSo) {
+  const auto cost_with = [](uint32_t mixers) {
+    std::mt19937_64 random(6);
+    MixedModel<3> model({16, 4, 16}, 1, mixers);
+    return CostAfter(model, 2000, 30000, [&] {
+      // The second context tells which of the two others tells.
+      std::array<uint32_t, 3> contexts;
+      for (uint32_t& context : contexts) context = static_cast<uint32_t>(random() % 16);
+      contexts[1] %= 4;
+      const bool one = (contexts[1] < 2 ? contexts[0] : contexts[2]) < 8;
+      return std::tuple(contexts, 0u, std::bernoulli_distribution(one ? 0.95 : 0.05)(random));
+    });
+  };
+  EXPECT_LT(cost_with(3), 0.95 * cost_with(2));
+}
+
 TEST(MixedModel, LearnsWhichContextToTrust) {
   std::mt19937_64 random(3);
   MixedModel<3> model({16, 16, 16});

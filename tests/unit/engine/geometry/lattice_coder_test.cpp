@@ -120,7 +120,7 @@ TEST(LatticeCoder, RandomVerticesComeBackAndEndExact) {
 
 TEST(LatticeCoder, RandomVerticesComeBackWithEverySetting) {
   for (uint32_t step = 0; step <= 4; ++step) {
-    for (uint32_t mixers : {1u, 2u}) {
+    for (uint32_t mixers : {1u, 2u, 3u}) {
       Case input = RandomCase(8, {12345, 777, 5}, {1012345, 34567, 1003}, 12);
       input.settings = {step, mixers};
       ExpectRoundTrip(input);

@@ -1,17 +1,14 @@
 #include "apps/batch/batch_report.h"
 
-#include <iterator>
+#include "apps/folprom/report.h"
 
 namespace folprom::batch {
 namespace {
 
-constexpr std::string_view kOperations[] = {"encode", "decode", "verify", "rd"};
-constexpr std::string_view kStatuses[] = {"done", "up_to_date", "failed", "interrupted", "not_run"};
+using cli::OrNull;
 
-template <class T>
-Json OrNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
+constexpr std::array<std::string_view, 5> kStatusNames = {"done", "up_to_date", "failed",
+                                                          "interrupted", "not_run"};
 
 template <class T>
 void Read(const Json& json, const char* key, T* value) {
@@ -25,7 +22,8 @@ void Read(const Json& json, const char* key, std::optional<T>* value) {
 }
 
 template <class Enum, size_t N>
-void ReadName(const Json& json, const char* key, const std::string_view (&names)[N], Enum* value) {
+void ReadName(const Json& json, const char* key, const std::array<std::string_view, N>& names,
+              Enum* value) {
   const auto name = json.at(key).get<std::string>();
   for (size_t i = 0; i < N; ++i) {
     if (names[i] == name) {
@@ -68,8 +66,8 @@ OperationResult OperationOf(const Json& json) {
   OperationResult r;
   Read(json, "job", &r.job);
   Read(json, "scan", &r.scan);
-  ReadName(json, "operation", kOperations, &r.operation);
-  ReadName(json, "status", kStatuses, &r.status);
+  ReadName(json, "operation", kOperationNames, &r.operation);
+  ReadName(json, "status", kStatusNames, &r.status);
   Read(json, "reason", &r.reason);
   Read(json, "input", &r.input);
   Read(json, "folp", &r.folp);
@@ -130,8 +128,10 @@ Result<T> Reading(Work work) {
 
 }  // namespace
 
-std::string_view NameOf(Operation operation) { return kOperations[static_cast<size_t>(operation)]; }
-std::string_view NameOf(Status status) { return kStatuses[static_cast<size_t>(status)]; }
+std::string_view NameOf(Operation operation) {
+  return kOperationNames[static_cast<size_t>(operation)];
+}
+std::string_view NameOf(Status status) { return kStatusNames[static_cast<size_t>(status)]; }
 
 Json ToJson(const OperationResult& r) {
   Json points = Json::array();

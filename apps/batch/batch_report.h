@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "folprom/result.h"
@@ -20,6 +21,9 @@ using Json = nlohmann::ordered_json;
 inline constexpr int kReportSchema = 1;
 
 enum class Operation : uint8_t { kEncode, kDecode, kVerify, kRd };
+/// As job files and reports write them, in the order of Operation.
+inline constexpr std::array<std::string_view, 4> kOperationNames = {"encode", "decode", "verify",
+                                                                    "rd"};
 
 /// How an operation ended.
 enum class Status : uint8_t {

@@ -7,7 +7,6 @@ namespace folprom::batch {
 namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr std::string_view kOperations[] = {"encode", "decode", "verify", "rd"};
 constexpr std::string_view kExisting[] = {"skip", "overwrite", "fail"};
 constexpr std::string_view kOnError[] = {"continue", "stop"};
 constexpr std::string_view kOfTheBatch[] = {"threads", "memory", "tmp"};
@@ -41,7 +40,7 @@ std::vector<cli::Key> JobKeys(Job& job, std::string_view table) {
        "settings to start from, relative to this file; keys beside it win", ""},
       {table, "operations", &job.operations,
        "what to do: encode, decode the lods, verify against the scan, rd (error at each rate)", "",
-       0, 0, kOperations},
+       0, 0, kOperationNames},
       {table, "lods", std::monostate(), "what decode writes, one entry each; none: the whole mesh",
        ""},
       {table, "rates", &job.rates, "rates of rd", "bits per vertex of the scan", 1e-6, 1e6},

@@ -90,7 +90,7 @@ Json InfoJson(const FileInfo& info) {
           {"bytes_present", info.bytes_present},
           {"bits_per_vertex", BitsPerVertex(info)},
           {"subtrees", info.subtrees},
-          {"tolerance", info.tolerance ? Json(*info.tolerance) : Json()},
+          {"tolerance", OrNull(info.tolerance)},
           {"exact", ExactJson(info)},
           {"box_lo", info.box_lo},
           {"box_hi", info.box_hi},

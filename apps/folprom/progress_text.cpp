@@ -7,14 +7,6 @@
 #include "apps/folprom/report.h"
 
 namespace folprom::cli {
-namespace {
-
-template <class T>
-Json OrNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-}  // namespace
 
 std::optional<double> ProgressReading::fraction() const {
   if (total == 0) return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,6 +18,12 @@ using Json = nlohmann::ordered_json;
 /// Writes to standard output; kOutput where it does not take all of it.
 void Print(const std::string& text);
 void PrintJson(const Json& object);
+
+/// null for no value.
+template <class T>
+Json OrNull(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 /// Mean, rms and max in model units and as parts of the diagonal, null for a single point, which
 /// has no size that a distance could be a part of.

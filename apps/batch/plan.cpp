@@ -118,11 +118,7 @@ class Planner {
     scan.input = file;
     scan.name = fs::path(file).lexically_relative(root).string();
     if (const auto stamp = StampOf(file)) scan.bytes = stamp->size;
-    const fs::path relative = scan.name;
-    const std::string path =
-        ExpandPattern(job.pattern, {relative.stem().string(), relative.filename().string(),
-                                    relative.parent_path().string(), job.name});
-    const std::string stem = plan_.OutputFolder(job) + "/" + path;
+    const std::string stem = plan_.StemOf(scan, job.pattern);
     if (job.Does(Operation::kEncode)) scan.folp = stem + ".folp";
     if (job.from_folp()) scan.folp = file;
     plan_.scans.push_back(scan);
@@ -181,6 +177,14 @@ std::string Plan::OutputFolder(const Job& job) const {
   const fs::path canonical = fs::weakly_canonical(folder, unknown);
   const std::string name = (unknown ? folder : canonical).string();
   return name.size() > 1 && name.ends_with('/') ? name.substr(0, name.size() - 1) : name;
+}
+
+std::string Plan::StemOf(const Scan& scan, const std::string& pattern) const {
+  const Job& job = file.jobs[scan.job];
+  const fs::path name = scan.name;
+  return OutputFolder(job) + "/" +
+         ExpandPattern(pattern, {name.stem().string(), name.filename().string(),
+                                 name.parent_path().string(), job.name});
 }
 
 OperationResult Plan::ResultOf(const Task& task) const {

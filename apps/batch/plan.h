@@ -44,6 +44,8 @@ struct Plan {
   Ledger& LedgerOf(const Task& task) { return ledgers.at(OutputFolder(JobOf(task))); }
   /// Absolute, without links in the part that exists.
   std::string OutputFolder(const Job& job) const;
+  /// Absolute path of the outputs of a scan without extension, were `pattern` that of its job.
+  std::string StemOf(const Scan& scan, const std::string& pattern) const;
   /// With all that is known before the operation runs.
   OperationResult ResultOf(const Task& task) const;
 };

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "apps/batch/glob.h"
-#include "apps/batch/name_pattern.h"
 #include "apps/batch/plan.h"
 
 namespace folprom::batch {
@@ -70,17 +69,11 @@ class InputPatterns {
   std::map<std::string, const Scan*> inputs_;
 };
 
-std::string StemBy(const std::string& pattern, const Plan& plan, const Task& task) {
-  const Scan& scan = plan.scans[task.scan];
-  const fs::path name = scan.name;
-  return plan.OutputFolder(plan.JobOf(task)) + "/" +
-         ExpandPattern(pattern, {name.stem().string(), name.filename().string(),
-                                 name.parent_path().string(), plan.JobOf(task).name});
-}
-
 [[noreturn]] void FailOnSameOutput(const Plan& plan, const std::string& output, const Task& first,
                                    const Task& second) {
   const Job& job = plan.JobOf(second);
+  const Scan& first_scan = plan.scans[first.scan];
+  const Scan& second_scan = plan.scans[second.scan];
   if (first.scan == second.scan) {
     job.Fail(ErrorKind::kUsage, "lods",
              "two entries of lods write " + output + "; give one of them a name of its own");
@@ -88,13 +81,13 @@ std::string StemBy(const std::string& pattern, const Plan& plan, const Task& tas
   std::string advice = "choose another output folder for one of the jobs";
   for (const char* pattern :
        {"{name}", "{folder}/{stem}", "{job}/{stem}", "{folder}/{name}", "{job}/{folder}/{name}"}) {
-    if (StemBy(pattern, plan, first) == StemBy(pattern, plan, second)) continue;
+    if (plan.StemOf(first_scan, pattern) == plan.StemOf(second_scan, pattern)) continue;
     advice = "pattern = " + Quoted(pattern) + " keeps them apart";
     break;
   }
   job.Fail(ErrorKind::kUsage, "pattern",
-           plan.scans[first.scan].input + " and " + plan.scans[second.scan].input +
-               " would both be written to " + output + "; " + advice);
+           first_scan.input + " and " + second_scan.input + " would both be written to " + output +
+               "; " + advice);
 }
 
 void CheckExisting(const Plan& plan, const Task& task, const std::string& output) {
@@ -142,7 +135,7 @@ void CheckOutputs(const Plan& plan) {
       patterns.Check(output, plan.JobOf(task), task.operation == Operation::kDecode);
     }
   }
-  for (const char* name : {"/report.json", "/report.jsonl"}) {
+  for (const char* name : {"/report.json", "/report.jsonl", "/report.html"}) {
     patterns.Check(plan.file.report + name, plan.file.jobs.front(), false);
   }
   for (const Task& task : plan.tasks) {

@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "apps/folprom/report.h"
 #include "apps/render/levels.h"
@@ -141,9 +142,8 @@ class Artist {
     if (auto png = Kept(kept)) return *png;
     const std::vector<uint8_t> png =
         render::PngOf(render::Draw(path, options, runner_, progress_).image);
-    const auto file = std::move(io::AtomicFile::Create(kept, true).value());
-    file->Append(png).value();
-    file->Commit().value();
+    const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
+    io::WriteWholeFile(kept, bytes, true).value();
     return png;
   }
 

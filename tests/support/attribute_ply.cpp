@@ -11,6 +11,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/files.h"
+#include "tests/support/ply.h"
 #include "tests/support/random.h"
 
 namespace folprom::support {
@@ -133,13 +135,7 @@ void WriteAttributes(const std::string& path, const AttributeMesh& content) {
     for (double value : mesh.positions[v]) Append(&bytes, value);
     AppendRow(mesh, v, content.before_position, mesh.attributes.size(), &bytes);
   }
-  for (const Triple& face : mesh.faces) {
-    bytes.push_back(3);
-    for (uint64_t index : face) Append(&bytes, static_cast<int32_t>(index));
-  }
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush()) throw std::runtime_error("cannot write " + path);
+  WriteBytes(path, bytes + FaceBytes(mesh));
 }
 
 AttributeMesh ReadAttributes(const std::string& path) {

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/support/files.h"
+
 namespace folprom::support {
 namespace {
 
@@ -97,6 +99,15 @@ Header ReadHeader(const std::string& bytes) {
 
 }  // namespace
 
+std::string FaceBytes(const Mesh& mesh) {
+  std::string bytes;
+  for (const Triple& face : mesh.faces) {
+    bytes.push_back(3);
+    for (uint64_t index : face) Append(&bytes, static_cast<int32_t>(index));
+  }
+  return bytes;
+}
+
 void WritePly(const std::string& path, const Mesh& mesh, CoordinateType type) {
   const char* names[] = {"short", "int", "float", "double"};
   std::string name = names[static_cast<int>(type)];
@@ -123,13 +134,7 @@ void WritePly(const std::string& path, const Mesh& mesh, CoordinateType type) {
       }
     }
   }
-  for (const Triple& face : mesh.faces) {
-    bytes.push_back(3);
-    for (uint64_t index : face) Append(&bytes, static_cast<int32_t>(index));
-  }
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush()) throw std::runtime_error("cannot write " + path);
+  WriteBytes(path, bytes + FaceBytes(mesh));
 }
 
 PlyContent ReadPly(const std::string& path) {

@@ -13,6 +13,9 @@ enum class CoordinateType { kShort, kInt, kFloat, kDouble };
 /// type; ReadPly tells the result.
 void WritePly(const std::string& path, const Mesh& mesh, CoordinateType type);
 
+/// Faces as a binary little-endian PLY holds them, `property list uchar int`.
+std::string FaceBytes(const Mesh& mesh);
+
 struct PlyContent {
   Mesh mesh;
   std::string coordinate_type;  ///< as spelt in the header

@@ -1,6 +1,7 @@
 #include "engine/decode_pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -67,10 +68,19 @@ class Pipeline {
     return std::binary_search(selection_.wanted.begin(), selection_.wanted.end(), subtree);
   }
 
-  void DecodeSubtrees() {
+  /// Vertices to be decoded; where neither all layers nor all subtrees are, about so many.
+  uint64_t VerticesNeeded() const {
     uint64_t vertices = 0;
     for (uint32_t s : needed_) vertices += table_.subtrees[s].vertices;
-    progress_.StartStage("decode", vertices, "vertices");
+    if (vertices == 0) return 0;
+    const double part = static_cast<double>(vertices) / static_cast<double>(table_.vertices);
+    const uint64_t in_all =
+        std::min(table_.layers[selection_.layers - 1].vertices, table_.vertices);
+    return static_cast<uint64_t>(std::llround(part * static_cast<double>(in_all)));
+  }
+
+  void DecodeSubtrees() {
+    progress_.StartStage("decode", VerticesNeeded(), "vertices");
     const bool drawn = parameters_.has_rests() || parameters_.fits_lods();
     size_t window = WindowOf(table_, needed_, drawn, memory_bytes_, runner_.threads());
     std::vector<DecodedPart> parts(needed_.size());
@@ -82,14 +92,19 @@ class Pipeline {
                               parts[i].border_vertices, parts[i].attributes});
           }
           parts[i] = DecodedPart();
-          progress_.Advance(table_.subtrees[needed_[i]].vertices);
         });
   }
 
   DecodedPart DecodeSubtree(uint32_t subtree) {
     progress_.ThrowIfCancelled();
     SubtreeReader reader(container_, parameters_, subtree, has_border_[subtree]);
-    for (size_t layer = 0; layer < selection_.layers; ++layer) reader.DecodeLayer();
+    const std::vector<Int3>& decoded = reader.state().positions();
+    // Layer by layer, for a subtree takes seconds.
+    for (size_t layer = 0, seen = 0; layer < selection_.layers; ++layer) {
+      reader.DecodeLayer();
+      progress_.Advance(decoded.size() - seen);
+      seen = decoded.size();
+    }
     DecodedPart part;
     part.positions = reader.state().positions();
     part.exact = reader.state().DrawnPositions(lattice_, error_bound_);

@@ -196,7 +196,7 @@ double EncodeJob::TypicalEdge() const {
   return count == 0 ? 0 : static_cast<double>(length) / static_cast<double>(count);
 }
 
-void EncodeJob::EncodeSubtrees(bool keep_order) {
+void EncodeJob::EncodeSubtrees(bool keep_order, const char* stage) {
   // The largest first: the last tasks to end are then small. Results do not depend on it.
   std::vector<size_t> order(outcomes_.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -208,7 +208,7 @@ void EncodeJob::EncodeSubtrees(bool keep_order) {
     first_vertex.push_back(first_vertex.back() + scan_->summary(s).vertices);
   }
   if (keep_order) order_.emplace(*spill_, "order");
-  progress_.StartStage("encode", source_->vertex_count(), "vertices");
+  progress_.StartStage(stage, source_->vertex_count(), "vertices");
   parallel::MemoryBudget budget(WorkingBytes(options_.memory_bytes) * 3 / 4);
   runner_.ForEach(order.size(), [&](size_t i) {
     size_t subtree = order[i];
@@ -216,8 +216,14 @@ void EncodeJob::EncodeSubtrees(bool keep_order) {
     auto lease = budget.Acquire(EncodeSubtreeBytes(summary, parameters_));
     progress_.ThrowIfCancelled();  // behind the wait: the job may have been cancelled meanwhile
     SubtreeChunk chunk = scan_->Load(subtree);
+    size_t seen = 0;
+    // Layer by layer, for a subtree takes seconds.
+    const auto advance = [&](const SubtreeCoder& coder) {
+      progress_.Advance(coder.positions().size() - seen);
+      seen = coder.positions().size();
+    };
     EncodedSubtree encoded =
-        EncodeSubtree(chunk, summary, static_cast<uint32_t>(subtree), parameters_);
+        EncodeSubtree(chunk, summary, static_cast<uint32_t>(subtree), parameters_, {}, advance);
     Outcome& outcome = outcomes_[subtree];
     outcome.inner_bytes = SpillSegments(*spill_, InnerName(subtree), encoded.segments);
     outcome.seam_bytes.assign(outcome.inner_bytes.size(), 0);
@@ -233,7 +239,6 @@ void EncodeJob::EncodeSubtrees(bool keep_order) {
     if (keep_order) {
       order_->WriteRecords<uint32_t>(first_vertex[subtree], encoded.final_vertices);
     }
-    progress_.Advance(summary.vertices);
   });
 }
 

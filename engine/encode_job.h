@@ -42,8 +42,9 @@ class EncodeJob {
   /// The lattice of an existing file instead of the scan's own (verify).
   void UseResolution(const Resolution& resolution) { resolution_ = resolution; }
   void Partition();
-  /// keep_order: keep the final index of each vertex for MapOrder.
-  void EncodeSubtrees(bool keep_order);
+  /// keep_order: keep the final index of each vertex for MapOrder. `stage`: name for the progress,
+  /// a literal.
+  void EncodeSubtrees(bool keep_order, const char* stage = "encode");
   /// Subtree by subtree, the index that each vertex gets in its subtree, as uint32_t.
   io::MappedFile MapOrder() const { return order_->Map(); }
   void EncodeSeams();

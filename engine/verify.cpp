@@ -107,7 +107,7 @@ class Comparison {
     if (!AreExtrasAlike(report)) return;
     job_.UseResolution({file_.lattice(), table.tolerance});
     job_.Partition();
-    job_.EncodeSubtrees(true);
+    job_.EncodeSubtrees(true, "match");
     MatchSink sink(file_.lattice(), job_.spill());
     DecodeInto(file_.container(), file_.parameters(), Everything(file_), memory_bytes,
                temporary_folder, runner_, progress_, sink);

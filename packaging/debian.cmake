@@ -1,6 +1,6 @@
 # cpack -G DEB: folprom, the program, and libfolprom-dev, static libraries and headers.
 set(CPACK_PACKAGE_NAME folprom)
-set(CPACK_PACKAGE_CONTACT "folprom maintainers <maintainers@folprom.invalid>")
+set(CPACK_PACKAGE_CONTACT "Seed aa3b47dc maintainers <maintainers@users.noreply.h-seed-aa3b47dc.example>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

@@ -142,6 +142,9 @@ class DecodeJob {
     Decode(sink);
     report->vertices = sink.vertices();
     report->faces = sink.faces();
+    if (sink.vertices() == 0) {
+      report->warnings.push_back("no vertex lies in the region; folprom info tells the mesh's box");
+    }
     auto writer = MakeWriter(sink.vertices(), sink.faces());
     sink.WriteTo(*writer);
     Commit(*writer, report);

@@ -69,6 +69,7 @@ class RegionTest : public ::testing::TestWithParam<Coder> {
     EXPECT_EQ(report.vertices, expected.positions.size());
     EXPECT_EQ(report.faces, expected.faces.size());
     EXPECT_EQ(DifferenceInOrder(expected, ReadPly(out_).mesh), "");
+    EXPECT_EQ(report.warnings.size(), expected.positions.empty() ? 1u : 0u);  // that it is empty
   }
 
   TemporaryFolder folder_;

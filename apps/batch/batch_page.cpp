@@ -66,7 +66,8 @@ std::string State(Status status) {
 std::string StateCell(Status status, const std::string& reason) {
   std::string cell = "<td class=\"text\" data-label=\"state\">" + State(status);
   if (!reason.empty() && reason != Describe(status).text) {
-    cell += " <span class=\"muted\">" + Escaped(reason) + "</span>";
+    const std::string_view why = status == Status::kDone ? "why: " : "";
+    cell += fmt::format(" <span class=\"muted\">{}{}</span>", why, Escaped(reason));
   }
   return cell + "</td>";
 }

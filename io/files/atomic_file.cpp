@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "io/files/posix.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 namespace {
@@ -68,12 +69,12 @@ class AtomicFileOnDisk final : public AtomicFile {
   }
 
   Result<void> WriteAt(uint64_t offset, std::span<const uint8_t> bytes) override {
-    return Guarded([&] { WriteAllAt(file_.get(), offset, bytes, path_); });
+    return ResultOf([&] { WriteAllAt(OpenFile(), offset, bytes, path_); });
   }
 
   Result<void> AppendFrom(const ScratchFile& scratch) override {
-    return Guarded([&] {
-      scratch.CopyTo(file_.get(), end_, path_);
+    return ResultOf([&] {
+      scratch.CopyTo(OpenFile(), end_, path_);
       end_ += scratch.size();
     });
   }
@@ -81,8 +82,8 @@ class AtomicFileOnDisk final : public AtomicFile {
   const std::string& folder() const override { return folder_; }
 
   Result<void> Commit() override {
-    return Guarded([&] {
-      if (::fsync(file_.get()) != 0) ThrowSystemError(ErrorKind::kOutput, path_, "cannot sync");
+    return ResultOf([&] {
+      if (::fsync(OpenFile()) != 0) ThrowSystemError(ErrorKind::kOutput, path_, "cannot sync");
       file_.CloseChecked(path_);
       Rename();
       temporary_.clear();
@@ -91,17 +92,11 @@ class AtomicFileOnDisk final : public AtomicFile {
   }
 
  private:
-  template <class Work>
-  Result<void> Guarded(Work work) {
+  int OpenFile() const {
     if (!file_.open()) {
-      return Error{ErrorKind::kInternal, path_ + ": written to after it was committed"};
+      throw Failure(ErrorKind::kInternal, path_ + ": written to after it was committed");
     }
-    try {
-      work();
-      return {};
-    } catch (const Failure& failure) {
-      return failure.error();
-    }
+    return file_.get();
   }
 
   void Rename() {
@@ -143,24 +138,21 @@ class AtomicFileOnDisk final : public AtomicFile {
 }  // namespace
 
 Result<std::unique_ptr<AtomicFile>> AtomicFile::Create(const std::string& path, bool force) {
-  try {
-    return std::unique_ptr<AtomicFile>(std::make_unique<AtomicFileOnDisk>(path, force));
-  } catch (const Failure& failure) {
-    return failure.error();
-  } catch (const fs::filesystem_error& error) {
-    return Error{ErrorKind::kOutput, path + ": " + error.code().message()};
-  }
+  return ResultOf([&]() -> std::unique_ptr<AtomicFile> {
+    try {
+      return std::make_unique<AtomicFileOnDisk>(path, force);
+    } catch (const fs::filesystem_error& error) {
+      throw OutputFailure(path, error.code().message());
+    }
+  });
 }
 
 Result<void> WriteWholeFile(const std::string& path, std::string_view text, bool force) {
-  try {
-    const auto file = std::move(AtomicFile::Create(path, force).value());
+  return ResultOf([&] {
+    const auto file = AtomicFile::Create(path, force).value();
     file->Append({reinterpret_cast<const uint8_t*>(text.data()), text.size()}).value();
     file->Commit().value();
-    return {};
-  } catch (const Failure& failure) {
-    return failure.error();
-  }
+  });
 }
 
 }  // namespace folprom::io

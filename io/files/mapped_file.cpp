@@ -8,29 +8,28 @@
 #include <algorithm>
 
 #include "io/files/posix.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 
 Result<MappedFile> MappedFile::Open(const std::string& path) {
-  try {
+  return ResultOf([&] {
     // Without O_NONBLOCK a named pipe with no writer would block here for ever.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (!file.open()) ThrowSystemError(ErrorKind::kInput, path, "cannot open");
-    return OfDescriptor(file.get(), path);
-  } catch (const Failure& failure) {
-    return failure.error();
-  }
+    return OfDescriptor(file.get(), path).value();
+  });
 }
 
 Result<MappedFile> MappedFile::OfDescriptor(int file, const std::string& path) {
-  try {
+  return ResultOf([&] {
     struct stat status {};
     if (::fstat(file, &status) != 0) {
       ThrowSystemError(ErrorKind::kInput, path, "cannot read its status");
     }
     if (!S_ISREG(status.st_mode)) {
       const char* reason = S_ISDIR(status.st_mode) ? "is a directory" : "is not a regular file";
-      return Error{ErrorKind::kInput, path + ": " + reason};
+      throw Failure(ErrorKind::kInput, path + ": " + reason);
     }
 
     MappedFile mapped;
@@ -42,9 +41,7 @@ Result<MappedFile> MappedFile::OfDescriptor(int file, const std::string& path) {
     mapped.data_ = static_cast<const uint8_t*>(data);
     mapped.size_ = size;
     return mapped;
-  } catch (const Failure& failure) {
-    return failure.error();
-  }
+  });
 }
 
 MappedFile::~MappedFile() {

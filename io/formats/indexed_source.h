@@ -43,15 +43,6 @@ class IndexedSource : public MeshSource {
   uint64_t VerticesIn(size_t block) const {
     return vertex_block_begin(block + 1) - vertex_block_begin(block);
   }
-  template <class Work>
-  static Result<void> Guarded(Work work) {
-    try {
-      work();
-      return {};
-    } catch (const Failure& failure) {
-      return failure.error();
-    }
-  }
 
   SourceIndex index_;
 

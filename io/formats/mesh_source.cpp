@@ -12,6 +12,7 @@
 #include "io/formats/ply_source.h"
 #include "io/formats/stl_source.h"
 #include "io/formats/text_cursor.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 namespace {
@@ -60,11 +61,7 @@ std::unique_ptr<MeshSource> OpenMapped(MappedFile file) {
 }  // namespace
 
 Result<std::unique_ptr<MeshSource>> MeshSource::Open(const std::string& path) {
-  try {
-    return OpenMapped(MappedFile::Open(path).value());
-  } catch (const Failure& failure) {
-    return failure.error();
-  }
+  return ResultOf([&] { return OpenMapped(MappedFile::Open(path).value()); });
 }
 
 }  // namespace folprom::io

@@ -1,21 +1,9 @@
 #include "io/formats/mesh_writer.h"
 
 #include "io/formats/counted_writer.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
-namespace {
-
-template <class Work>
-Result<void> Guarded(Work work) {
-  try {
-    work();
-    return {};
-  } catch (const Failure& failure) {
-    return failure.error();
-  }
-}
-
-}  // namespace
 
 Result<MeshFormat> OutputFormat(const std::string& path) {
   if (const std::optional<MeshFormat> format = FormatByEnding(path)) return *format;
@@ -25,7 +13,7 @@ Result<MeshFormat> OutputFormat(const std::string& path) {
 
 Result<std::unique_ptr<MeshWriter>> MeshWriter::Create(const std::string& path,
                                                        const MeshShape& shape, bool force) {
-  try {
+  return ResultOf([&] {
     switch (OutputFormat(path).value()) {
       case MeshFormat::kObj:
         return MakeObjWriter(path, shape, force);
@@ -37,9 +25,7 @@ Result<std::unique_ptr<MeshWriter>> MeshWriter::Create(const std::string& path,
         break;
     }
     return MakePlyWriter(path, shape, force);
-  } catch (const Failure& failure) {
-    return failure.error();
-  }
+  });
 }
 
 CountedWriter::CountedWriter(const std::string& path, const MeshShape& shape, bool force)
@@ -52,7 +38,7 @@ CountedWriter::CountedWriter(const std::string& path, const MeshShape& shape, bo
 
 Result<void> CountedWriter::AppendVertices(std::span<const double> xyz,
                                            std::span<const uint8_t> attributes) {
-  return Guarded([&] {
+  return ResultOf([&] {
     if (xyz.size() % 3 != 0 || xyz.size() / 3 > vertices_left_) {
       ThrowInternal("more vertices are written than were announced");
     }
@@ -65,7 +51,7 @@ Result<void> CountedWriter::AppendVertices(std::span<const double> xyz,
 }
 
 Result<void> CountedWriter::AppendFaces(std::span<const Triangle> faces) {
-  return Guarded([&] {
+  return ResultOf([&] {
     if (faces.size() > faces_left_) ThrowInternal("more faces are written than were announced");
     faces_left_ -= faces.size();
     for (const Triangle& face : faces) {
@@ -78,7 +64,7 @@ Result<void> CountedWriter::AppendFaces(std::span<const Triangle> faces) {
 }
 
 Result<void> CountedWriter::Commit() {
-  return Guarded([&] {
+  return ResultOf([&] {
     if (vertices_left_ != 0 || faces_left_ != 0) {
       ThrowInternal("fewer vertices or faces are written than were announced");
     }

@@ -10,6 +10,7 @@
 #include "io/formats/polygon_fan.h"
 #include "io/formats/text_cursor.h"
 #include "io/formats/text_number.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 namespace {
@@ -46,7 +47,7 @@ class ObjSource final : public IndexedSource {
   }
 
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override {
-    return Guarded([&] {
+    return ResultOf([&] {
       ObjReader reader(file(), vertices_[block]);
       xyz->resize(3 * VerticesIn(block));
       for (size_t i = 0; i < xyz->size(); i += 3) {
@@ -60,7 +61,7 @@ class ObjSource final : public IndexedSource {
   }
 
   Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const override {
-    return Guarded([&] {
+    return ResultOf([&] {
       const ObjFaceBlock& where = faces_[block];
       ObjReader reader(file(), where.position);
       triangles->clear();

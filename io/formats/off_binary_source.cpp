@@ -10,6 +10,7 @@
 #include "io/formats/ply_scalar.h"
 #include "io/formats/polygon_fan.h"
 #include "io/formats/resident_window.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 namespace {
@@ -157,7 +158,7 @@ class BinaryOffSource final : public IndexedSource {
   }
 
   Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const override {
-    return Guarded([&] {
+    return ResultOf([&] {
       const uint8_t* at = file().bytes().data() + faces_[block].offset;
       triangles->clear();
       triangles->reserve(faces_[block].triangles);

@@ -8,6 +8,7 @@
 #include "io/formats/polygon_fan.h"
 #include "io/formats/resident_window.h"
 #include "io/formats/text_cursor.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 namespace {
@@ -134,7 +135,7 @@ class TextOffSource final : public IndexedSource {
   }
 
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override {
-    return Guarded([&] {
+    return ResultOf([&] {
       TextCursor cursor(file(), vertices_[block]);
       xyz->resize(3 * VerticesIn(block));
       for (size_t i = 0; i < xyz->size(); i += 3) {
@@ -148,7 +149,7 @@ class TextOffSource final : public IndexedSource {
   }
 
   Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const override {
-    return Guarded([&] {
+    return ResultOf([&] {
       TextCursor cursor(file(), faces_[block].position);
       triangles->clear();
       triangles->reserve(faces_[block].triangles);

@@ -47,13 +47,14 @@ class PlyAsciiCursor {
   }
 
  private:
-  static bool IsBlank(char c) { return static_cast<unsigned char>(c) <= ' ' && c != '\n'; }
+  static bool IsWordByte(char c) { return static_cast<unsigned char>(c) > ' '; }
+  static bool IsBlank(char c) { return !IsWordByte(c) && c != '\n'; }
 
   // In the header, as all of the steps over words spend their time here.
   std::string_view Word() {
     while (at_ < end_ && IsBlank(*at_)) ++at_;
     const char* begin = at_;
-    while (at_<end_&& static_cast<unsigned char>(*at_)> ' ') ++at_;
+    while (at_ < end_ && IsWordByte(*at_)) ++at_;
     if (at_ == begin) FailAtEnd();
     return {begin, static_cast<size_t>(at_ - begin)};
   }

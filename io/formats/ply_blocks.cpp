@@ -5,6 +5,7 @@
 
 #include "io/formats/ply_ascii_cursor.h"
 #include "io/formats/ply_binary_cursor.h"
+#include "io/formats/ply_skip.h"
 #include "io/formats/resident_window.h"
 
 namespace folprom::io {
@@ -70,14 +71,6 @@ class BlockIndexer {
       cursor.EndRecord();
     }
     DropResident(cursor);
-  }
-
-  static void SkipProperty(const PlyProperty& property, Cursor& cursor) {
-    if (property.is_list) {
-      cursor.SkipItems(property.type, cursor.Count(property.count_type));
-    } else {
-      cursor.Skip(property.type);
-    }
   }
 
   void WalkTriangles(const PlyElementPlan& plan, Cursor& cursor) {

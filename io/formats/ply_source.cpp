@@ -9,8 +9,10 @@
 #include "io/formats/ply_blocks.h"
 #include "io/formats/ply_header.h"
 #include "io/formats/ply_layout.h"
+#include "io/formats/ply_skip.h"
 #include "io/formats/ply_triangles.h"
 #include "io/formats/store_bytes.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 namespace {
@@ -30,10 +32,8 @@ void ReadVertices(Cursor& cursor, const PlyElementPlan& plan, uint64_t begin, ui
       const PlyProperty& property = properties[p];
       if (axes[p] != kNotCoordinate) {
         xyz[axes[p]] = cursor.Real(property.type);
-      } else if (property.is_list) {
-        cursor.SkipItems(property.type, cursor.Count(property.count_type));
       } else {
-        cursor.Skip(property.type);
+        SkipProperty(property, cursor);
       }
     }
     cursor.EndRecord();
@@ -84,10 +84,8 @@ void ReadAttributes(Cursor& cursor, const PlyElementPlan& plan, uint64_t begin, 
       const PlyProperty& property = properties[p];
       if (kept[p]) {
         values = ReadValue(cursor, property.type, values);
-      } else if (property.is_list) {
-        cursor.SkipItems(property.type, cursor.Count(property.count_type));
       } else {
-        cursor.Skip(property.type);
+        SkipProperty(property, cursor);
       }
     }
     cursor.EndRecord();
@@ -113,33 +111,27 @@ class TriangleReader {
     if (block_.items_left > 0) {
       ReadItems(block_.items_left, block_.state);
       if (Done()) return;
-      FinishRecord(plan_.index_list + 1);
+      FinishRecord();
       ++record;
     }
     for (; !Done(); ++record) {
       cursor_.BeginRecord(record);
-      for (size_t p = 0; p < plan_.index_list; ++p) SkipProperty(p);
+      SkipProperties(0, plan_.index_list);
       ReadList(cursor_.Count(list_.count_type));
       if (Done()) return;
-      FinishRecord(plan_.index_list + 1);
+      FinishRecord();
     }
   }
 
  private:
   bool Done() const { return out_.size() >= block_.triangles; }
 
-  void SkipProperty(size_t index) {
-    const PlyProperty& property = plan_.element->properties[index];
-    if (property.is_list) {
-      cursor_.SkipItems(property.type, cursor_.Count(property.count_type));
-    } else {
-      cursor_.Skip(property.type);
-    }
+  void SkipProperties(size_t begin, size_t end) {
+    for (; begin < end; ++begin) SkipProperty(plan_.element->properties[begin], cursor_);
   }
 
-  void FinishRecord(size_t property) {
-    const size_t count = plan_.element->properties.size();
-    for (; property < count; ++property) SkipProperty(property);
+  void FinishRecord() {
+    SkipProperties(plan_.index_list + 1, plan_.element->properties.size());
     cursor_.EndRecord();
   }
 
@@ -243,8 +235,8 @@ class PlySource final : public MeshSource {
  private:
   template <class Work>
   Result<void> WithCursor(const PlyElementPlan& plan, FilePosition position, Work work) const {
-    const PlyPlace place{&file_.path(), plan.element, 0};
-    try {
+    return ResultOf([&] {
+      const PlyPlace place{&file_.path(), plan.element, 0};
       if (header_.format == PlyFormat::kAscii) {
         PlyAsciiCursor cursor(file_.bytes(), position, place);
         work(cursor);
@@ -255,10 +247,7 @@ class PlySource final : public MeshSource {
         PlyBinaryCursor<true> cursor(file_.bytes(), position, place);
         work(cursor);
       }
-      return {};
-    } catch (const Failure& failure) {
-      return failure.error();
-    }
+    });
   }
 
   MappedFile file_;

@@ -8,6 +8,7 @@
 #include "io/formats/soup_source.h"
 #include "io/formats/stl_source.h"
 #include "io/formats/text_cursor.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 namespace {
@@ -98,7 +99,7 @@ class TextStlSource final : public SoupSource {
   }
 
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override {
-    return Guarded([&] {
+    return ResultOf([&] {
       StlTextParser parser(file(), blocks_[block]);
       xyz->resize(3 * VerticesIn(block));
       double* to = xyz->data();

@@ -36,7 +36,7 @@ class TextCursor {
     }
     const char* begin = at_;
     if (at_ < end_ && *at_ == '#') return {};
-    while (at_<end_&& static_cast<unsigned char>(*at_)> ' ' && !AtJoint()) ++at_;
+    while (at_ < end_ && IsWordByte(*at_) && !AtJoint()) ++at_;
     return {begin, static_cast<size_t>(at_ - begin)};
   }
   /// Steps to the end of the line, not over it; joined lines are one.
@@ -54,7 +54,8 @@ class TextCursor {
 
  private:
   static bool IsNewline(char c) { return c == '\n' || c == '\r'; }
-  static bool IsBlank(char c) { return static_cast<unsigned char>(c) <= ' ' && !IsNewline(c); }
+  static bool IsWordByte(char c) { return static_cast<unsigned char>(c) > ' '; }
+  static bool IsBlank(char c) { return !IsWordByte(c) && !IsNewline(c); }
 
   bool AtJoint() const { return joined_ && *at_ == '\\' && JointBytes() > 0; }
   uint64_t JointBytes() const;

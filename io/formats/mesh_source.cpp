@@ -44,7 +44,7 @@ std::unique_ptr<MeshSource> OpenByEnding(MappedFile file) {
                 file.path() + ": unsupported format (known formats: PLY, OBJ, STL, OFF)");
 }
 
-std::unique_ptr<MeshSource> OpenMapped(MappedFile file) {
+std::unique_ptr<MeshSource> OpenByContent(MappedFile file) {
   if (file.bytes().empty()) throw Failure(ErrorKind::kInput, file.path() + ": the file is empty");
   if (HasPlyMagic(file.bytes())) return OpenPlySource(std::move(file));
   if (HasBinaryStlSize(file.bytes())) return OpenBinaryStlSource(std::move(file));
@@ -61,7 +61,11 @@ std::unique_ptr<MeshSource> OpenMapped(MappedFile file) {
 }  // namespace
 
 Result<std::unique_ptr<MeshSource>> MeshSource::Open(const std::string& path) {
-  return ResultOf([&] { return OpenMapped(MappedFile::Open(path).value()); });
+  return ResultOf([&] { return OpenByContent(MappedFile::Open(path).value()); });
+}
+
+Result<std::unique_ptr<MeshSource>> MeshSource::OfMapped(MappedFile file) {
+  return ResultOf([&] { return OpenByContent(std::move(file)); });
 }
 
 }  // namespace folprom::io

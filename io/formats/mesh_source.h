@@ -13,6 +13,8 @@
 
 namespace folprom::io {
 
+class MappedFile;
+
 /// Three vertex indices of the file, in the order of the file.
 using Triangle = std::array<uint64_t, 3>;
 
@@ -38,6 +40,8 @@ class MeshSource {
   /// Opens a PLY, OBJ, STL or OFF file, known by its content and only then by its ending. Walks the
   /// file once, so that truncation and bad counts are found here (kInput), and indexes the blocks.
   static Result<std::unique_ptr<MeshSource>> Open(const std::string& path);
+  /// The same of a file that is mapped already.
+  static Result<std::unique_ptr<MeshSource>> OfMapped(MappedFile file);
 
   virtual const std::string& path() const = 0;
   virtual uint64_t vertex_count() const = 0;

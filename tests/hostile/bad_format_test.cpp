@@ -2,58 +2,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <filesystem>
 
-#include "io/formats/mesh_source.h"
+#include "tests/fuzz/scan_check.h"
 #include "tests/hostile/encode_error.h"
 #include "tests/hostile/guarded_child.h"
 #include "tests/hostile/small_scans.h"
 
 namespace folprom::hostile {
-namespace fs = std::filesystem;
 namespace {
 
 constexpr uint64_t kGrowth = uint64_t{64} << 20;
 
-/// Opens and reads all blocks; false where that ends in anything but a sound mesh or an input error
-/// that names the file. *is_mesh tells which.
-bool ReadsOrRefuses(const std::string& path, bool* is_mesh) {
-  const auto is_clean = [&](const Error& error) {
-    return error.kind == ErrorKind::kInput && error.message.starts_with(path + ": ");
-  };
-  *is_mesh = false;
-  auto opened = io::MeshSource::Open(path);
-  if (!opened) return is_clean(opened.error());
-  const io::MeshSource& source = **opened;
-  uint64_t vertices = 0, faces = 0;
-  std::vector<double> xyz;
-  for (size_t block = 0; block < source.vertex_block_count(); ++block) {
-    const Result<void> read = source.ReadVertexBlock(block, &xyz);
-    if (!read) return is_clean(read.error());
-    vertices += xyz.size() / 3;
-  }
-  std::vector<io::Triangle> triangles;
-  for (size_t block = 0; block < source.triangle_block_count(); ++block) {
-    const Result<void> read = source.ReadTriangleBlock(block, &triangles);
-    if (!read) return is_clean(read.error());
-    faces += triangles.size();
-    for (const io::Triangle& triangle : triangles) {
-      for (const uint64_t vertex : triangle) {
-        if (vertex >= source.vertex_count()) return false;
-      }
-    }
-  }
-  *is_mesh = true;
-  return vertices == source.vertex_count() && faces == source.triangle_count();
-}
-
-bool ReadsOrRefusesBytes(const TemporaryFolder& folder, const SmallScan& scan,
-                         std::string_view bytes, bool* is_mesh) {
-  // Not over the old file: some file systems sync a file that is written anew.
-  fs::remove(folder.File(scan.name));
-  WriteFile(folder.File(scan.name), bytes);
-  return ReadsOrRefuses(folder.File(scan.name), is_mesh);
+/// false where reading ends in anything but a sound mesh or an input error that names the file.
+/// *is_mesh tells which.
+bool ReadsOrRefuses(const SmallScan& scan, const std::string& bytes, bool* is_mesh) {
+  const fuzz::ScanOutcome outcome = fuzz::ReadScanBytes(
+      std::span(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()), scan.name);
+  *is_mesh = outcome.is_mesh;
+  return outcome.fault.empty();
 }
 
 TEST(BadFormat, SmallScansVerifyWhileTheyAreWhole) {
@@ -66,12 +32,11 @@ TEST(BadFormat, SmallScansVerifyWhileTheyAreWhole) {
 }
 
 TEST(BadFormat, CutAtAnyByteIsRefusedOrAMeshWhereALineEnds) {
-  const TemporaryFolder folder;
   for (const SmallScan& scan : SmallScans()) {
     const std::string faults = RunGuarded(scan.bytes.size(), 1, kGrowth, [&](size_t size) {
       bool is_mesh = false;
       const std::string cut = scan.bytes.substr(0, size);
-      if (!ReadsOrRefusesBytes(folder, scan, cut, &is_mesh)) return false;
+      if (!ReadsOrRefuses(scan, cut, &is_mesh)) return false;
       // OBJ announces nothing: any of its lines may be the last, and lose digits.
       if (!is_mesh || scan.name == "obj.obj") return true;
       return scan.is_text && cut.size() > scan.bytes.size() / 2;
@@ -81,13 +46,12 @@ TEST(BadFormat, CutAtAnyByteIsRefusedOrAMeshWhereALineEnds) {
 }
 
 TEST(BadFormat, WithAnyBitFlippedIsRefusedOrAMesh) {
-  const TemporaryFolder folder;
   for (const SmallScan& scan : SmallScans()) {
     const std::string faults = RunGuarded(8 * scan.bytes.size(), 1, kGrowth, [&](size_t bit) {
       std::string bytes = scan.bytes;
       bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << bit % 8));
       bool is_mesh = false;
-      return ReadsOrRefusesBytes(folder, scan, bytes, &is_mesh);
+      return ReadsOrRefuses(scan, bytes, &is_mesh);
     });
     EXPECT_EQ(faults, "") << scan.name;
   }
@@ -119,10 +83,9 @@ TEST(BadFormat, WithAbsurdCountsIsRefusedWithoutMemoryForThem) {
       {"a.obj", "f 1000000000000000000 2 3\n"},
       {"a.obj", "v 0 0 0\nf -9223372036854775808 1 1\n"},
   };
-  const TemporaryFolder folder;
   const std::string faults = RunGuarded(scans.size(), 1, kGrowth, [&](size_t i) {
     bool is_mesh = false;
-    return ReadsOrRefusesBytes(folder, scans[i], scans[i].bytes, &is_mesh) && !is_mesh;
+    return ReadsOrRefuses(scans[i], scans[i].bytes, &is_mesh) && !is_mesh;
   });
   EXPECT_EQ(faults, "");
 }
@@ -143,13 +106,12 @@ TEST(BadFormat, WithLongLinesIsReadInBoundedMemory) {
                                    {"a.off", "OFF", " ", "0 0"},
                                    {"a.stl", "solid ", "name ", "\nendsolid"},
                                    {"a.stl", "solid\n", "endsolid\nsolid\n", "endsolid"}};
-  const TemporaryFolder folder;
   const std::string faults = RunGuarded(cases.size(), 5, kGrowth, [&](size_t i) {
     std::string bytes = cases[i].head;
     while (bytes.size() < 1000000) bytes += cases[i].piece;
     bytes += cases[i].tail;
     bool is_mesh = false;
-    return ReadsOrRefusesBytes(folder, {cases[i].name, ""}, bytes, &is_mesh) && is_mesh;
+    return ReadsOrRefuses({cases[i].name, ""}, bytes, &is_mesh) && is_mesh;
   });
   EXPECT_EQ(faults, "");
 }

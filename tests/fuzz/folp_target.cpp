@@ -1,0 +1,8 @@
+// The container and the decoder.
+#include "tests/fuzz/folp_check.h"
+#include "tests/fuzz/target.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  return folprom::fuzz::RunTarget(
+      data, size, [](std::span<const uint8_t> input) { return folprom::fuzz::FaultOfFolp(input); });
+}

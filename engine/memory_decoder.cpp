@@ -27,13 +27,31 @@ void AppendAttributes(const std::vector<uint8_t>& rows, const io::VertexSchema& 
   }
 }
 
+/// Models are made before a vertex is known, and the table may name a subtree in a few bytes.
+void CheckModels(const io::FileTable& table, uint64_t memory_bytes) {
+  constexpr uint64_t kSubtree = uint64_t{352} << 10, kSeam = uint64_t{20} << 10;
+  const uint64_t per_subtree =
+      kSubtree + table.schema.attributes.size() * AttributeCoder::kModelBytes;
+  uint64_t bytes = table.subtrees.size() * per_subtree;
+  for (const io::SubtreeRecord& subtree : table.subtrees) {
+    if (!subtree.lower_neighbours.empty()) bytes += kSeam;
+  }
+  if (bytes <= memory_bytes) return;
+  throw Failure(ErrorKind::kLimit,
+                "memory: the models of " + std::to_string(table.subtrees.size()) +
+                    " subtrees take " + std::to_string(bytes >> 20) +
+                    " MiB, more than the limit of " + std::to_string(memory_bytes >> 20) + " MiB");
+}
+
 }  // namespace
 
 struct MemoryDecoder::Impl {
-  explicit Impl(io::ContainerReader opened)
+  /// memory_bytes: what the models may take.
+  Impl(io::ContainerReader opened, uint64_t memory_bytes)
       : container(std::move(opened)),
         parameters(ParametersOf(container.table(), container.layers_total())) {
     const io::FileTable& table = container.table();
+    CheckModels(table, memory_bytes);
     std::vector<bool> border = SubtreesWithBorder(table);
     for (size_t s = 0; s < table.subtrees.size(); ++s) {
       subtrees.emplace_back(container, parameters, s, border[s]);
@@ -74,10 +92,11 @@ MemoryDecoder::MemoryDecoder(MemoryDecoder&&) noexcept = default;
 MemoryDecoder& MemoryDecoder::operator=(MemoryDecoder&&) noexcept = default;
 MemoryDecoder::~MemoryDecoder() = default;
 
-Result<MemoryDecoder> MemoryDecoder::Open(std::span<const uint8_t> file) {
+Result<MemoryDecoder> MemoryDecoder::Open(std::span<const uint8_t> file, uint64_t memory_bytes) {
+  if (memory_bytes == 0) memory_bytes = (uint64_t{56} << 20) + 56 * uint64_t{file.size()};
   try {
     auto container = io::ContainerReader::Open(file, "memory");
-    return MemoryDecoder(std::make_unique<Impl>(std::move(container).value()));
+    return MemoryDecoder(std::make_unique<Impl>(std::move(container).value(), memory_bytes));
   } catch (const Failure& failure) {
     return failure.error();
   } catch (const std::bad_alloc&) {

@@ -308,6 +308,40 @@ TEST_P(ForgedTable, WithNeighboursThatShareNothingEndsWell) {
   }
 }
 
+/// So many subtrees of two vertices, all alike, of which the file has next to nothing.
+Bytes ManySubtrees(Parts parts, size_t count) {
+  io::SubtreeRecord subtree = parts.table.subtrees[0];
+  subtree.vertices = 2;
+  subtree.lower_neighbours.clear();
+  parts.table.subtrees.assign(count, subtree);
+  parts.table.vertices = 2 * count;
+  parts.segments.assign(parts.table.layers.size() * count * 2, {});
+  for (auto& layer : parts.table.layers) {
+    layer.vertices = std::min(layer.vertices, parts.table.vertices);
+  }
+  for (size_t s = 0; s < count; ++s) parts.segments[2 * s] = {0x5a};
+  return PutTogether(std::move(parts));
+}
+
+TEST_P(ForgedTable, WithManySubtreesTakesNoMemoryForThemAll) {
+  for (const size_t count : {100u, 180u, 1000u, 20000u}) {
+    const Bytes file = ManySubtrees(Small(), count);
+    const uint64_t allowed = kAllowedBytes + 64 * uint64_t{file.size()};
+    EXPECT_EQ(RunGuarded(1, 5, allowed,
+                         [&](size_t) {
+                           const ErrorKind error = ErrorOf(file);
+                           return error == ErrorKind::kCorrupt || error == ErrorKind::kLimit;
+                         }),
+              "")
+        << count << " subtrees in " << file.size() << " bytes";
+  }
+  const Bytes file = ManySubtrees(Small(), 1000);
+  const auto refused = MemoryDecoder::Open(file);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::kLimit) << refused.error().message;
+  EXPECT_TRUE(MemoryDecoder::Open(file, uint64_t{1} << 30).ok()) << "the limit can be raised";
+}
+
 TEST_P(ForgedTable, OfAMeshWithoutVerticesDecodesToNothingOrIsCorrupt) {
   Parts parts = Small();
   parts.table.vertices = parts.table.faces = 0;

@@ -9,6 +9,9 @@
 namespace folprom::support {
 namespace {
 
+// The files of tests have many small subtrees.
+constexpr uint64_t kModelBytes = uint64_t{8} << 30;
+
 std::string FolderOf(const std::string& path) {
   return std::filesystem::path(path).parent_path().string();
 }
@@ -54,7 +57,7 @@ VerifyReport Verify(const std::string& folp, const std::string& original,
 
 std::vector<Mesh> EveryLod(const std::string& folp) {
   std::vector<uint8_t> bytes = FileBytes(folp);
-  MemoryDecoder decoder = MemoryDecoder::Open(bytes).value();
+  MemoryDecoder decoder = MemoryDecoder::Open(bytes, kModelBytes).value();
   std::vector<Mesh> lods;
   while (lods.size() < decoder.layer_count()) {
     decoder.DecodeNextLayer().value();
@@ -65,7 +68,7 @@ std::vector<Mesh> EveryLod(const std::string& folp) {
 
 Mesh LodOf(const std::string& folp, size_t layers) {
   std::vector<uint8_t> bytes = FileBytes(folp);
-  MemoryDecoder decoder = MemoryDecoder::Open(bytes).value();
+  MemoryDecoder decoder = MemoryDecoder::Open(bytes, kModelBytes).value();
   if (layers == 0) layers = decoder.layer_count();
   for (size_t i = 0; i < layers; ++i) decoder.DecodeNextLayer().value();
   return decoder.Mesh();

@@ -19,15 +19,18 @@ namespace folprom {
 struct DecodedMesh {
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<uint64_t, 3>> faces;
-  bool is_float = false;                     ///< the scan had floats, or integers that fit into one
+  bool is_float = false;  ///< the scan had floats, or integers that fit into one
   std::vector<DecodedAttribute> attributes = {};  ///< in the order of the scan
 };
 
 /// Decodes a .folp file held in memory. Not thread-safe; move-only.
 class MemoryDecoder {
  public:
-  /// `file` must outlive the decoder. Errors: kCorrupt, kInput (unknown version).
-  static Result<MemoryDecoder> Open(std::span<const uint8_t> file);
+  /// `file` must outlive the decoder. `memory_bytes`: what the models of all subtrees may take,
+  /// some 350 KiB each; 0: 56 MiB and 56 times the bytes given, more than the whole of a file needs
+  /// whose subtrees have 10,000 vertices, but less than the first part of one of some 20 million.
+  /// Errors: kCorrupt, kInput (unknown version), kLimit.
+  static Result<MemoryDecoder> Open(std::span<const uint8_t> file, uint64_t memory_bytes = 0);
   MemoryDecoder(MemoryDecoder&&) noexcept;
   MemoryDecoder& operator=(MemoryDecoder&&) noexcept;
   ~MemoryDecoder();

@@ -3,9 +3,10 @@
 # those of the programs that tests/bench compares with. Does nothing when all are there.
 set -eu
 
-packages="clang cmake dpkg-dev g++ groff-base libboost-iostreams-dev libcli11-dev libeigen3-dev
-  libclang-rt-14-dev libembree-dev libfast-float-dev libgtest-dev libopenvdb-dev libpng-dev libspdlog-dev libtbb-dev
-  libtomlplusplus-dev libxxhash-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev zsh"
+packages="clang cmake dpkg-dev g++ groff-base libboost-iostreams-dev libclang-rt-14-dev libcli11-dev
+  libeigen3-dev libembree-dev libfast-float-dev libgtest-dev libopenvdb-dev libpng-dev libspdlog-dev
+  libtbb-dev libtomlplusplus-dev libxxhash-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev
+  zsh"
 bench_packages="draco libdraco-dev libmeshoptimizer-dev libzstd-dev openctm-tools xz-utils"
 
 case ${1:-} in

@@ -82,6 +82,7 @@ class DecodeJob {
             parallel::Runner& runner, parallel::Progress& progress)
       : output_(output), options_(options), runner_(runner), progress_(progress), file_(input) {
     CheckOptions(options);
+    file_.CheckLimits(options.limits);
     io::OutputFormat(output).value();
     selection_ = SelectionFor(file_, options);
   }
@@ -118,7 +119,7 @@ class DecodeJob {
     std::ranges::copy(writer.Warnings(), std::back_inserter(report->warnings));
   }
   void Decode(MeshSink& sink) {
-    DecodeInto(file_.container(), file_.parameters(), selection_, options_.memory_bytes,
+    DecodeInto(file_.container(), file_.parameters(), selection_, options_.limits.memory_bytes,
                options_.temporary_folder, runner_, progress_, sink);
   }
 

@@ -107,7 +107,7 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
                      parallel::Runner& runner, parallel::Progress& progress)
     : options_(options), runner_(runner), progress_(progress) {
   CheckOptions(options).value();
-  source_ = io::MeshSource::Open(input).value();
+  source_ = io::MeshSource::Open(input, options.limits).value();
   spill_ = std::make_unique<io::SpillDirectory>(options.temporary_folder);
 }
 
@@ -139,9 +139,9 @@ void EncodeJob::Partition() {
   settings.metric_b = options_.codec.metric_b;
   settings.normal_metric = options_.codec.subtree_normals;
   if (source_->vertex_count() > 0) {
-    scan_ =
-        PartitionScan(*source_, resolution_.lattice, settings, WorkingBytes(options_.memory_bytes),
-                      runner_, *spill_, progress_, KeepsAttributes());
+    scan_ = PartitionScan(*source_, resolution_.lattice, settings,
+                          WorkingBytes(options_.limits.memory_bytes), runner_, *spill_, progress_,
+                          KeepsAttributes());
   }
   source_->DropResident();
   outcomes_.resize(scan_ ? scan_->subtree_count() : 0);
@@ -209,7 +209,7 @@ void EncodeJob::EncodeSubtrees(bool keep_order, const char* stage) {
   }
   if (keep_order) order_.emplace(*spill_, "order");
   progress_.StartStage(stage, source_->vertex_count(), "vertices");
-  parallel::MemoryBudget budget(WorkingBytes(options_.memory_bytes) * 3 / 4);
+  parallel::MemoryBudget budget(WorkingBytes(options_.limits.memory_bytes) * 3 / 4);
   runner_.ForEach(order.size(), [&](size_t i) {
     size_t subtree = order[i];
     const SubtreeSummary& summary = scan_->summary(subtree);

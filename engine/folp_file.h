@@ -7,6 +7,7 @@
 #include "engine/mesh/lattice.h"
 #include "io/container/reader.h"
 #include "io/files/mapped_file.h"
+#include "io/limit_check.h"
 
 namespace folprom {
 
@@ -22,6 +23,11 @@ class FolpFile {
   const io::FileTable& table() const { return container_.table(); }
   const CodecParameters& parameters() const { return parameters_; }
   uint64_t bytes_present() const { return file_.bytes().size(); }
+  /// Failure kLimit where the whole mesh has more than that.
+  void CheckLimits(const Limits& limits) const {
+    io::CheckLimit(container_.name(), table().vertices, limits.vertices, "vertices");
+    io::CheckLimit(container_.name(), table().faces, limits.faces, "faces");
+  }
   Lattice lattice() const { return LatticeOf(table(), parameters_); }
 
  private:

@@ -133,7 +133,7 @@ class Comparison {
     encode.codec = file.parameters().settings;
     encode.exact = file.lattice().exact.has_value();
     encode.attributes = false;  // they decide no order
-    encode.memory_bytes = options.memory_bytes;
+    encode.limits = options.limits;
     encode.temporary_folder = options.temporary_folder;
     return encode;
   }
@@ -292,7 +292,7 @@ void CompareDigest(const FolpFile& file, const DecodeOptions& options, parallel:
                    parallel::Progress& progress, VerifyReport* report) {
   const io::FileTable& table = file.table();
   DigestSink sink(file.lattice());
-  DecodeInto(file.container(), file.parameters(), Everything(file), options.memory_bytes,
+  DecodeInto(file.container(), file.parameters(), Everything(file), options.limits.memory_bytes,
              options.temporary_folder, runner, progress, sink);
   if (sink.vertices() != table.vertices || sink.faces() != table.faces) {
     report->reason = "decoded counts differ from those of the table";
@@ -307,7 +307,8 @@ Result<VerifyReport> VerifyFile(const std::string& input, const std::string& ori
                                 const DecodeOptions& options, parallel::Runner& runner,
                                 parallel::Progress& progress) {
   return RunGuarded<VerifyReport>([&] {
-    FolpFile file(input);
+    const FolpFile file(input);
+    file.CheckLimits(options.limits);
     VerifyReport report;
     report.vertices = file.table().vertices;
     report.faces = file.table().faces;
@@ -321,7 +322,7 @@ Result<VerifyReport> VerifyFile(const std::string& input, const std::string& ori
       CompareDigest(file, options, runner, progress, &report);
     } else {
       Comparison(file, original, options, runner, progress)
-          .Run(options.memory_bytes, options.temporary_folder, &report);
+          .Run(options.limits.memory_bytes, options.temporary_folder, &report);
     }
     report.lossless = report.reason.empty();
     return report;

@@ -102,7 +102,7 @@ class JobReader {
     }
     if (table_name != kDefaults) return;
     file_.threads = job->encode.threads;
-    file_.memory_bytes = job->encode.options.memory_bytes;
+    file_.memory_bytes = job->encode.options.limits.memory_bytes;
     file_.temporary_folder = job->encode.options.temporary_folder;
   }
 
@@ -143,7 +143,7 @@ class JobReader {
 
   void CheckLod(const toml::node& node, const Lod& lod) const {
     const int bounds =
-        (lod.bpv > 0) + (lod.max_error > 0) + (lod.max_vertices.value > 0) + (lod.layers > 0);
+        (lod.bpv > 0) + (lod.max_error > 0) + (lod.max_vertices > 0) + (lod.layers > 0);
     if (bounds > 1) {
       toml_.Fail(node, "a lod has at most one of bpv, max_error, max_vertices and layers");
     }
@@ -218,7 +218,7 @@ std::string Lod::Text() const {
   std::string text = "whole";
   if (bpv > 0) text = fmt::format("bpv {}", bpv);
   if (max_error > 0) text = fmt::format("max_error {}", max_error);
-  if (max_vertices.value > 0) text = fmt::format("max_vertices {}", max_vertices.value);
+  if (max_vertices > 0) text = fmt::format("max_vertices {}", max_vertices);
   if (layers > 0) text = fmt::format("layers {}", layers);
   return region.empty() ? text : text + ", region " + region;
 }
@@ -227,7 +227,7 @@ std::string Lod::Suffix() const {
   std::string text = name;
   if (text.empty() && bpv > 0) text = fmt::format("bpv{}", bpv);
   if (text.empty() && max_error > 0) text = fmt::format("error{}", max_error);
-  if (text.empty() && max_vertices.value > 0) text = fmt::format("vertices{}", max_vertices.value);
+  if (text.empty() && max_vertices > 0) text = fmt::format("vertices{}", max_vertices);
   if (text.empty() && layers > 0) text = fmt::format("layers{}", layers);
   if (name.empty() && !region.empty()) text += text.empty() ? "region" : "-region";
   return text.empty() ? ".ply" : "." + text + ".ply";
@@ -237,7 +237,7 @@ DecodeOptions Lod::Options() const {
   DecodeOptions options;
   options.bits_per_vertex = bpv;
   options.max_error = max_error;
-  options.max_vertices = max_vertices.value;
+  options.max_vertices = max_vertices;
   options.layers = layers;
   if (!region.empty()) {
     const std::array<double, 6> corners = cli::ParseRegion(region).value();

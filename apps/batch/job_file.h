@@ -19,7 +19,7 @@ struct Lod {
   std::string name;  ///< of the output, between its stem and ".ply"; empty: from the bound
   double bpv = 0;
   double max_error = 0;
-  cli::Count max_vertices;
+  uint64_t max_vertices = 0;
   uint32_t layers = 0;
   std::string region;
 
@@ -43,7 +43,7 @@ struct Job {
   std::string on_error = "continue";
   std::vector<Lod> lods;
   std::vector<double> rates;
-  cli::Count samples;
+  uint64_t samples = 0;
   cli::EncodeConfig encode;
 
   bool Does(Operation operation) const;
@@ -63,7 +63,7 @@ struct JobFile {
   std::vector<Job> jobs;
   // Of the whole batch.
   uint32_t threads = 0;
-  uint64_t memory_bytes = EncodeOptions().memory_bytes;
+  uint64_t memory_bytes = EncodeOptions().limits.memory_bytes;
   std::string temporary_folder;
   std::string report;  ///< folder, absolute
 

@@ -128,7 +128,7 @@ class Artist {
     options.height = settings_.height;
     options.style.transparent = true;
     options.decode.temporary_folder = settings_.temporary_folder;
-    options.decode.memory_bytes = settings_.memory_bytes;
+    options.decode.limits.memory_bytes = settings_.memory_bytes;
     return options;
   }
 

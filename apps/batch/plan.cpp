@@ -41,7 +41,7 @@ std::string CodecText(const Job& job) {
 }
 
 std::string RatesText(const Job& job) {
-  return fmt::format("{};{}", fmt::join(job.rates, ","), job.samples.value);
+  return fmt::format("{};{}", fmt::join(job.rates, ","), job.samples);
 }
 
 class Planner {

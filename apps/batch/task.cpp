@@ -84,7 +84,7 @@ class Operator {
 
   EncodeOptions Encoding() const {
     EncodeOptions options = job_.encode.options;
-    options.memory_bytes = share_.memory_bytes;
+    options.limits.memory_bytes = share_.memory_bytes;
     options.temporary_folder = plan_.file.temporary_folder;
     options.overwrite = MayReplace();
     return options;
@@ -92,7 +92,8 @@ class Operator {
 
   DecodeOptions Decoding() const {
     DecodeOptions options = task_.lod.Options();
-    options.memory_bytes = share_.memory_bytes;
+    options.limits = job_.encode.options.limits;
+    options.limits.memory_bytes = share_.memory_bytes;
     options.temporary_folder = plan_.file.temporary_folder;
     options.overwrite = MayReplace();
     return options;
@@ -141,8 +142,7 @@ class Operator {
     const auto begin = std::chrono::steady_clock::now();
     const EncodeOptions options = Encoding();
     const RateCurve curve =
-        MeasureRates(scan_.input, options, job_.rates, job_.samples.value, *runner_, progress_)
-            .value();
+        MeasureRates(scan_.input, options, job_.rates, job_.samples, *runner_, progress_).value();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const cli::CurveOrigin origin{scan_.input, "", result_->settings, options};
     const std::string& json_path = task_.outputs.front();

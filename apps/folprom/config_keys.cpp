@@ -7,6 +7,7 @@
 #include <sstream>
 #include <type_traits>
 
+#include "apps/folprom/limit_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/toml_parser.h"
 #include "folprom/settings_keys.h"
@@ -45,7 +46,7 @@ struct TextOfValue {
   std::string operator()(const double* value) const { return FloatText(*value); }
   std::string operator()(const uint32_t* value) const { return std::to_string(*value); }
   std::string operator()(const uint64_t* value) const { return QuotedText(BytesText(*value)); }
-  std::string operator()(const Count* value) const { return std::to_string(value->value); }
+  std::string operator()(Count count) const { return std::to_string(*count.value); }
   std::string operator()(const std::string* value) const { return QuotedText(*value); }
   std::string operator()(const std::vector<std::string>* value) const {
     return ListText(*value, QuotedText);
@@ -79,11 +80,22 @@ std::vector<Key> EncodeKeys(EncodeConfig& config) {
        "\"lattice\"",
        ""},
       {"encode", "threads", &config.threads, "0: all; never alters the file", "threads", 0, 1024},
-      {"encode", "memory", &o.memory_bytes, "resident size to stay below; never alters the file",
-       "bytes, or a text such as \"2GiB\"", 1, kNoLimit},
+      {"encode", "memory", &o.limits.memory_bytes,
+       "resident size to stay below; never alters the file", "bytes, or a text such as \"2GiB\"", 1,
+       kNoLimit},
       {"encode", "tmp", &o.temporary_folder, "folder for temporary files; empty: $TMPDIR or /tmp",
        ""},
   };
+  for (const LimitName& limit : LimitNames()) {
+    uint64_t* value = &(o.limits.*limit.member);
+    Key key{"encode", limit.key, value, limit.meaning, "bytes, or a text such as \"2MiB\"",
+            1,        kNoLimit};
+    if (!limit.is_bytes) {
+      key.value = Count{value};
+      key.unit = "a text such as \"20M\", or a number";
+    }
+    keys.push_back(key);
+  }
   for (const SettingKey& key : SettingKeys()) {
     std::visit(
         [&](auto member) {

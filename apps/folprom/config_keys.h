@@ -14,7 +14,7 @@ namespace folprom::cli {
 
 /// A number of things, which a file may write as 20000 or "20k".
 struct Count {
-  uint64_t value = 0;
+  uint64_t* value;
 };
 
 /// A key of a file and the value that it stands for. uint64_t is a size in bytes; of texts with
@@ -22,9 +22,8 @@ struct Count {
 struct Key {
   std::string_view table;
   std::string_view name;
-  std::variant<uint32_t*, uint64_t*, Count*, double*, bool*, std::string*,
-               std::vector<std::string>*, std::vector<double>*, Hierarchy*, Offsets*,
-               Representative*, std::monostate>
+  std::variant<uint32_t*, uint64_t*, Count, double*, bool*, std::string*, std::vector<std::string>*,
+               std::vector<double>*, Hierarchy*, Offsets*, Representative*, std::monostate>
       value;
   std::string_view meaning;
   std::string_view unit;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/folprom/limit_flags.h"
 #include "apps/folprom/lod_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/report.h"
@@ -27,6 +28,7 @@ constexpr const char* kDescription =
 struct DecodeFlags {
   CommonFlags common;
   WorkFlags work;
+  LimitFlags limits;
   std::string input;
   std::string output;
   LodFlags lod;
@@ -45,7 +47,8 @@ DecodeOptions Settings(const DecodeFlags& flags) {
     std::copy_n(corners.begin(), 3, options.region_lo);
     std::copy_n(corners.begin() + 3, 3, options.region_hi);
   }
-  options.memory_bytes = flags.work.memory.value_or(options.memory_bytes);
+  flags.limits.ApplyTo(&options.limits);
+  options.limits.memory_bytes = flags.work.memory.value_or(options.limits.memory_bytes);
   options.temporary_folder = flags.work.temporary_folder.value_or("");
   options.overwrite = flags.force;
   return options;
@@ -102,6 +105,7 @@ Verb AddDecode(CLI::App& program) {
   verb->add_option("--region", flags->region, "Only what lies in this box, in model units")
       ->type_name("x0,y0,z0,x1,y1,z1");
   AddWorkFlags(verb, &flags->work);
+  AddLimitFlag(verb, &flags->limits);
   AddCommonFlags(verb, &flags->common);
   AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);

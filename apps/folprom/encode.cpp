@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "apps/folprom/config.h"
+#include "apps/folprom/limit_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/report.h"
 #include "apps/folprom/session.h"
@@ -28,6 +29,7 @@ constexpr const char* kDescription =
 struct EncodeFlags {
   CommonFlags common;
   WorkFlags work;
+  LimitFlags limits;
   std::string input;
   std::string output;
   std::string config;
@@ -61,7 +63,8 @@ EncodeConfig Settings(const EncodeFlags& flags) {
         static_cast<uint32_t>(std::min<uint64_t>(*flags.subtree_vertices, UINT32_MAX));
   }
   if (flags.work.threads) config.threads = *flags.work.threads;
-  if (flags.work.memory) options.memory_bytes = *flags.work.memory;
+  flags.limits.ApplyTo(&options.limits);
+  if (flags.work.memory) options.limits.memory_bytes = *flags.work.memory;
   if (flags.work.temporary_folder) options.temporary_folder = *flags.work.temporary_folder;
   options.overwrite = flags.force;
   CheckConfig(config).value();
@@ -126,7 +129,7 @@ int Run(const EncodeFlags& flags) {
   const auto runner = MakeRunner(flags.work, config.threads);
   Session session(flags.common);
   spdlog::debug("{} threads, {} memory", runner->threads(),
-                BytesShort(config.options.memory_bytes));
+                BytesShort(config.options.limits.memory_bytes));
   const EncodeReport report =
       EncodeFile(flags.input, flags.output, config.options, *runner, session.progress()).value();
   session.StopDisplay();
@@ -166,6 +169,7 @@ Verb AddEncode(CLI::App& program) {
   verb->add_flag("--print-config", flags->print_config,
                  "Print the settings in force as a config file, and stop");
   AddWorkFlags(verb, &flags->work);
+  AddLimitFlag(verb, &flags->limits);
   AddCommonFlags(verb, &flags->common);
   AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);

@@ -60,8 +60,8 @@ class ValueReader {
     return true;
   }
 
-  bool operator()(Count* value) const {
-    value->value = Scaled("an integer or a text such as \"20k\"", ParseCount);
+  bool operator()(Count count) const {
+    *count.value = Scaled("an integer or a text such as \"20k\"", ParseCount);
     return true;
   }
 

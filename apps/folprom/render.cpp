@@ -102,7 +102,8 @@ render::PictureOptions Settings(const RenderFlags& flags) {
   if (!flags.up.empty()) options.view.up = static_cast<size_t>(flags.up.front() - 'x');
   options.style = flags.style;
   flags.lod.ApplyTo(&options.decode);
-  options.decode.memory_bytes = flags.work.memory.value_or(options.decode.memory_bytes);
+  options.decode.limits.memory_bytes =
+      flags.work.memory.value_or(options.decode.limits.memory_bytes);
   options.decode.temporary_folder = flags.work.temporary_folder.value_or("");
   return options;
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/folprom/limit_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/report.h"
 #include "apps/folprom/session.h"
@@ -21,6 +22,7 @@ constexpr const char* kDescription =
 struct VerifyFlags {
   CommonFlags common;
   WorkFlags work;
+  LimitFlags limits;
   std::string input;
   std::string original;
 };
@@ -56,7 +58,8 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
 
 int Run(const VerifyFlags& flags) {
   DecodeOptions options;
-  options.memory_bytes = flags.work.memory.value_or(options.memory_bytes);
+  flags.limits.ApplyTo(&options.limits);
+  options.limits.memory_bytes = flags.work.memory.value_or(options.limits.memory_bytes);
   options.temporary_folder = flags.work.temporary_folder.value_or("");
   const auto runner = MakeRunner(flags.work, flags.work.threads.value_or(0));
   Session session(flags.common);
@@ -78,6 +81,7 @@ Verb AddVerify(CLI::App& program) {
                    "Compare with this mesh, not only with the digest in the file")
       ->type_name("SCAN");
   AddWorkFlags(verb, &flags->work);
+  AddLimitFlag(verb, &flags->limits);
   AddCommonFlags(verb, &flags->common);
   AddProgressFlag(verb, &flags->common);
   return {verb, [flags] { return Run(*flags); }};

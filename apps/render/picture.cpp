@@ -82,7 +82,7 @@ Picture Draw(const std::string& path, const PictureOptions& options, parallel::R
     picture.faces = faces;
     const uint64_t pixels = uint64_t{options.width} * options.height;
     CheckMemory(path, Scene::Bytes(vertices, faces) + pixels * kBytesPerPixel,
-                options.decode.memory_bytes);
+                options.decode.limits.memory_bytes);
   };
   measure::TriangleMesh mesh = measure::ReadMesh(path, read, runner, progress);
   picture.box = options.box ? *options.box : BoxFor(path, mesh);

@@ -44,7 +44,7 @@ class RateJob {
   RatePoint Decoded(double rate) const {
     DecodeOptions options;
     options.bits_per_vertex = rate;
-    options.memory_bytes = options_.memory_bytes;
+    options.limits = options_.limits;
     options.temporary_folder = options_.temporary_folder;
     options.overwrite = true;
     const DecodeReport report =

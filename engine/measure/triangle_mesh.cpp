@@ -71,7 +71,7 @@ void ReadFaces(const io::MeshSource& source, parallel::Runner& runner, parallel:
 TriangleMesh ReadSource(const std::string& file, const std::string& path,
                         const ReadOptions& options, parallel::Runner& runner,
                         parallel::Progress& progress) {
-  const auto source = std::move(io::MeshSource::Open(file).value());
+  const auto source = std::move(io::MeshSource::Open(file, options.decode.limits).value());
   CheckCount(path, source->vertex_count(), "vertices");
   CheckCount(path, source->triangle_count(), "faces");
   if (source->vertex_count() == 0 && !options.take_all) {

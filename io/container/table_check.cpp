@@ -57,7 +57,7 @@ std::string ExtrasFault(const FileTable& table) {
     if (!IsRemark(remark)) return "a remark that is no line of a header";
     bytes += remark.size();
   }
-  return bytes > kMostRemarkBytes ? "more than 64 KiB of remarks" : "";
+  return bytes > kMostRemarkBytes ? "more than 16 MiB of remarks" : "";
 }
 
 std::string LayersFault(const FileTable& table) {

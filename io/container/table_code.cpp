@@ -188,7 +188,7 @@ void ReadExtras(ByteReader* in, FileTable* table) {
   table->attribute_bits.resize(count, 0);
   table->schema.before_position = in->VarintUpTo(count, "attributes before the position");
   const uint64_t remarks = in->VarintUpTo(in->left(), "number of remarks");
-  if (remarks > kMostRemarkBytes) in->Fail("more remarks than 64 KiB can hold");
+  if (remarks > kMostRemarkBytes) in->Fail("more remarks than 16 MiB can hold");
   for (uint64_t i = 0; i < remarks; ++i) {
     table->remarks.push_back(ReadText(kMostRemarkBytes, "length of a remark", in));
   }

@@ -12,6 +12,7 @@
 #include "io/formats/ply_source.h"
 #include "io/formats/stl_source.h"
 #include "io/formats/text_cursor.h"
+#include "io/limit_check.h"
 #include "io/result_of.h"
 
 namespace folprom::io {
@@ -44,9 +45,9 @@ std::unique_ptr<MeshSource> OpenByEnding(MappedFile file) {
                 file.path() + ": unsupported format (known formats: PLY, OBJ, STL, OFF)");
 }
 
-std::unique_ptr<MeshSource> OpenByContent(MappedFile file) {
+std::unique_ptr<MeshSource> OpenByContent(MappedFile file, const Limits& limits) {
   if (file.bytes().empty()) throw Failure(ErrorKind::kInput, file.path() + ": the file is empty");
-  if (HasPlyMagic(file.bytes())) return OpenPlySource(std::move(file));
+  if (HasPlyMagic(file.bytes())) return OpenPlySource(std::move(file), limits);
   if (HasBinaryStlSize(file.bytes())) return OpenBinaryStlSource(std::move(file));
   // The first word that is no comment; a long first line need not be looked at further.
   TextCursor cursor(file, {0, 1});
@@ -60,12 +61,18 @@ std::unique_ptr<MeshSource> OpenByContent(MappedFile file) {
 
 }  // namespace
 
-Result<std::unique_ptr<MeshSource>> MeshSource::Open(const std::string& path) {
-  return ResultOf([&] { return OpenByContent(MappedFile::Open(path).value()); });
+Result<std::unique_ptr<MeshSource>> MeshSource::Open(const std::string& path,
+                                                     const Limits& limits) {
+  return ResultOf([&] { return OfMapped(MappedFile::Open(path).value(), limits).value(); });
 }
 
-Result<std::unique_ptr<MeshSource>> MeshSource::OfMapped(MappedFile file) {
-  return ResultOf([&] { return OpenByContent(std::move(file)); });
+Result<std::unique_ptr<MeshSource>> MeshSource::OfMapped(MappedFile file, const Limits& limits) {
+  return ResultOf([&] {
+    std::unique_ptr<MeshSource> source = OpenByContent(std::move(file), limits);
+    CheckLimit(source->path(), source->vertex_count(), limits.vertices, "vertices");
+    CheckLimit(source->path(), source->triangle_count(), limits.faces, "faces");
+    return source;
+  });
 }
 
 }  // namespace folprom::io

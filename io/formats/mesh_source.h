@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "folprom/limits.h"
 #include "folprom/result.h"
 #include "folprom/scalar_type.h"
 #include "io/formats/vertex_schema.h"
@@ -28,7 +29,7 @@ struct SourceNotes {
   uint64_t polygons_dropped = 0;       ///< faces of fewer than three corners
   uint64_t strips = 0;                 ///< triangle strips unrolled
   std::vector<std::string> ignored_properties;  ///< what else the file has, as its format calls it
-  uint64_t remarks_dropped = 0;                 ///< lines beyond kMostRemarkBytes, or not of text
+  uint64_t remarks_dropped = 0;  ///< lines beyond Limits::comment_bytes, or not of text
 };
 
 /// A scan file, mapped into memory and parsed on demand. Thread-safe after Open: every Read may be
@@ -39,9 +40,11 @@ class MeshSource {
 
   /// Opens a PLY, OBJ, STL or OFF file, known by its content and only then by its ending. Walks the
   /// file once, so that truncation and bad counts are found here (kInput), and indexes the blocks.
-  static Result<std::unique_ptr<MeshSource>> Open(const std::string& path);
+  /// kLimit where it has more of anything than `limits` allow.
+  static Result<std::unique_ptr<MeshSource>> Open(const std::string& path,
+                                                  const Limits& limits = {});
   /// The same of a file that is mapped already.
-  static Result<std::unique_ptr<MeshSource>> OfMapped(MappedFile file);
+  static Result<std::unique_ptr<MeshSource>> OfMapped(MappedFile file, const Limits& limits = {});
 
   virtual const std::string& path() const = 0;
   virtual uint64_t vertex_count() const = 0;

@@ -9,11 +9,10 @@
 
 #include "io/formats/ply_place.h"
 #include "io/formats/ply_scalar.h"
+#include "io/limit_check.h"
 
 namespace folprom::io {
 namespace {
-
-constexpr size_t kLongestHeader = size_t{1} << 20;
 
 using Words = std::vector<std::string_view>;
 
@@ -43,8 +42,11 @@ Words WordsOf(std::string_view line) {
 
 class HeaderParser {
  public:
-  HeaderParser(std::span<const uint8_t> bytes, const std::string& path)
-      : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), path_(path) {}
+  HeaderParser(std::span<const uint8_t> bytes, const std::string& path, const Limits& limits)
+      : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+        path_(path),
+        limits_(limits),
+        remark_bytes_left_(std::min<uint64_t>(limits.comment_bytes, kMostRemarkBytes)) {}
 
   PlyHeader Parse() {
     NextLine();  // "ply", as HasPlyMagic saw
@@ -79,28 +81,32 @@ class HeaderParser {
                   path_ + ": line " + std::to_string(line_number_) + ": " + reason);
   }
 
+  [[noreturn]] void FailTooLong() const {
+    throw Failure(ErrorKind::kLimit, path_ + ": no end_header in the first " +
+                                         std::to_string(limits_.header_bytes) +
+                                         " bytes, the limit of a header");
+  }
+
   std::string_view NextLine() {
     if (position_ >= text_.size()) Fail("the file ends before end_header");
     ++line_number_;
     const std::string_view rest =
-        text_.substr(position_, std::min(text_.size(), kLongestHeader) - position_);
+        text_.substr(position_, std::min<uint64_t>(text_.size(), limits_.header_bytes) - position_);
     const size_t end = rest.find('\n');
-    if (end == std::string_view::npos && text_.size() > kLongestHeader) {
-      Fail("no end_header in the first 1 MiB");
-    }
+    if (end == std::string_view::npos && text_.size() > limits_.header_bytes) FailTooLong();
     std::string_view line = rest.substr(0, end);
     position_ += std::min(line.size() + 1, rest.size());
-    if (position_ == kLongestHeader) Fail("no end_header in the first 1 MiB");
+    if (position_ == limits_.header_bytes) FailTooLong();
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     return line;
   }
 
   void KeepRemark(std::string_view line) {
-    if (!IsRemark(line) || line.size() > kMostRemarkBytes - remark_bytes_) {
+    if (!IsRemark(line) || line.size() > remark_bytes_left_) {
       ++header_.remarks_dropped;
       return;
     }
-    remark_bytes_ += line.size();
+    remark_bytes_left_ -= line.size();
     header_.remarks.emplace_back(line);
   }
 
@@ -158,6 +164,7 @@ class HeaderParser {
       Fail("a second property " + Quoted(property.name) + " of element " +
            Quoted(header_.elements.back().name));
     }
+    CheckLimit(path_, ++properties_, limits_.properties, "properties");
     header_.elements.back().properties.push_back(std::move(property));
   }
 
@@ -177,9 +184,11 @@ class HeaderParser {
 
   std::string_view text_;
   const std::string& path_;
+  const Limits& limits_;
+  uint64_t remark_bytes_left_;
   size_t position_ = 0;
   uint64_t line_number_ = 0;
-  size_t remark_bytes_ = 0;
+  uint64_t properties_ = 0;
   bool has_format_ = false;
   std::set<std::string, std::less<>> element_names_;
   std::set<std::string, std::less<>> property_names_;  // of the last element
@@ -194,8 +203,9 @@ bool HasPlyMagic(std::span<const uint8_t> bytes) {
   return text.starts_with("ply\n") || text == "ply\r\n";
 }
 
-PlyHeader ParsePlyHeader(std::span<const uint8_t> bytes, const std::string& path) {
-  return HeaderParser(bytes, path).Parse();
+PlyHeader ParsePlyHeader(std::span<const uint8_t> bytes, const std::string& path,
+                         const Limits& limits) {
+  return HeaderParser(bytes, path, limits).Parse();
 }
 
 }  // namespace folprom::io

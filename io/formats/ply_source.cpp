@@ -169,9 +169,9 @@ class TriangleReader {
 
 class PlySource final : public MeshSource {
  public:
-  explicit PlySource(MappedFile file)
+  PlySource(MappedFile file, const Limits& limits)
       : file_(std::move(file)),
-        header_(ParsePlyHeader(file_.bytes(), file_.path())),
+        header_(ParsePlyHeader(file_.bytes(), file_.path(), limits)),
         layout_(PlanPlyLayout(header_, file_.path())),
         blocks_(IndexPlyBlocks(file_, header_, layout_)) {
     blocks_.notes.ignored_properties = std::move(layout_.ignored_properties);
@@ -259,8 +259,8 @@ class PlySource final : public MeshSource {
 
 }  // namespace
 
-std::unique_ptr<MeshSource> OpenPlySource(MappedFile file) {
-  return std::make_unique<PlySource>(std::move(file));
+std::unique_ptr<MeshSource> OpenPlySource(MappedFile file, const Limits& limits) {
+  return std::make_unique<PlySource>(std::move(file), limits);
 }
 
 }  // namespace folprom::io

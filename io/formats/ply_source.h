@@ -8,7 +8,7 @@
 
 namespace folprom::io {
 
-/// The file must have the PLY magic. Throws Failure kInput.
-std::unique_ptr<MeshSource> OpenPlySource(MappedFile file);
+/// The file must have the PLY magic. Throws Failure kInput, kLimit.
+std::unique_ptr<MeshSource> OpenPlySource(MappedFile file, const Limits& limits);
 
 }  // namespace folprom::io

@@ -12,7 +12,7 @@ namespace folprom::io {
 
 inline constexpr size_t kMostAttributes = 255;
 inline constexpr size_t kLongestAttributeName = 255;          ///< bytes
-inline constexpr size_t kMostRemarkBytes = size_t{64} << 10;  ///< of all lines together
+inline constexpr size_t kMostRemarkBytes = size_t{16} << 20;  ///< of all lines together
 
 /// A number that each vertex has.
 struct VertexAttribute {

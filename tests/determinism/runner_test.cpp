@@ -58,12 +58,12 @@ void ExpectSameBytes(const std::string& scan, EncodeOptions options, uint64_t le
   std::vector<uint8_t> encoded = FileBytes(folp), decoded = FileBytes(ply);
   for (const Way& way : Ways(shuffles)) {
     SCOPED_TRACE(way.name);
-    options.memory_bytes = way.memory_bytes;
+    options.limits.memory_bytes = way.memory_bytes;
     options.overwrite = true;
     Encode(scan, folder.File("again.folp"), options, way.runner.get());
     ExpectEqualBytes(encoded, FileBytes(folder.File("again.folp")));
     DecodeOptions decode;
-    decode.memory_bytes = way.memory_bytes;
+    decode.limits.memory_bytes = way.memory_bytes;
     decode.overwrite = true;
     Decode(folp, folder.File("again.ply"), decode, way.runner.get());
     ExpectEqualBytes(decoded, FileBytes(folder.File("again.ply")));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "folprom/limits.h"
 #include "folprom/result.h"
 
 namespace folprom {
@@ -116,9 +117,7 @@ struct EncodeOptions {
   /// The scalar properties that vertices have beside x, y and z come back bit for bit, and so do
   /// comments. Only with Offsets::kLattice. false: they are dropped.
   bool attributes = true;
-  /// Resident size to stay below; never alters bytes. The seams do not count their memory by it: a
-  /// thread holds the border records of a subtree and its lower neighbours.
-  uint64_t memory_bytes = uint64_t{2} << 30;
+  Limits limits;                 ///< of the scan; the memory never alters bytes
   std::string temporary_folder;  ///< empty: $TMPDIR or /tmp
   bool overwrite = false;        ///< may replace the output
 };
@@ -136,7 +135,7 @@ struct DecodeOptions {
   bool use_region = false;  ///< only the vertices inside the box, and faces with all three inside
   double region_lo[3] = {0, 0, 0};
   double region_hi[3] = {0, 0, 0};
-  uint64_t memory_bytes = uint64_t{2} << 30;
+  Limits limits;  ///< of the file, and of a scan that it is compared with
   std::string temporary_folder;
   bool overwrite = false;
 };

@@ -110,7 +110,7 @@ TEST_F(PictureTest, DrawsEverySmallShape) {
 
 TEST_F(PictureTest, RefusesWhatNeedsMoreThanTheMemoryLimit) {
   PictureOptions options = Small();
-  options.decode.memory_bytes = 100'000;
+  options.decode.limits.memory_bytes = 100'000;
   try {
     DrawFile(Scan(support::BumpySphere(2000, false, 3)), options);
     FAIL() << "not refused";

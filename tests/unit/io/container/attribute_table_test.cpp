@@ -105,8 +105,8 @@ TEST(AttributeTableTest, RemarksThatAreNoLinesOfAHeaderAreRefused) {
   ExpectRefused("comment one", "element one", "a remark that is no line");
   ExpectRefused("comment one", "comments ne", "a remark that is no line");
   FileTable table = Table();
-  table.remarks = {"comment " + std::string(40000, 'a'), "comment " + std::string(40000, 'b')};
-  EXPECT_EQ(TableFault(table), "more than 64 KiB of remarks");
+  table.remarks = {"comment " + std::string(9 << 20, 'a'), "comment " + std::string(9 << 20, 'b')};
+  EXPECT_EQ(TableFault(table), "more than 16 MiB of remarks");
 }
 
 TEST(AttributeTableTest, AbsurdCountsAreRefusedBeforeAnythingIsAllocated) {

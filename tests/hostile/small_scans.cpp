@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "tests/hostile/support.h"
+
 namespace folprom::hostile {
 namespace {
 
@@ -42,7 +44,7 @@ std::string BinaryOff(bool geomview) {
 }  // namespace
 
 std::vector<SmallScan> SmallScans() {
-  return {
+  std::vector<SmallScan> scans = {
       {"obj.obj",
        "mtllib a.mtl\nv 0 0 0\nv 1 0 0.5\nvt 0 1\nvn 0 0 1\nusemtl red\n"
        "f 1/1/1 2//1 \\\n-1/1\nv 1e1 -1 0\ng b\nf -3 1 2 3\nl 1 2\n"},
@@ -58,6 +60,13 @@ std::vector<SmallScan> SmallScans() {
       {"geomview.off", BinaryOff(true), false},
       {"binary.off", BinaryOff(false), false},
   };
+  for (const std::string name :
+       {"ascii", "strips_ascii", "little", "plain_little", "big", "plain_big"}) {
+    const Bytes bytes = FileContent(FOLPROM_SOURCE_DIR "/tests/fuzz/seeds/ply/" + name + ".ply");
+    scans.push_back(
+        {name + ".ply", std::string(bytes.begin(), bytes.end()), name.ends_with("ascii")});
+  }
+  return scans;
 }
 
 }  // namespace folprom::hostile

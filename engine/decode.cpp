@@ -87,6 +87,9 @@ class DecodeJob {
     selection_ = SelectionFor(file_, options);
   }
 
+  /// Failure kInput where the file has been written meanwhile.
+  void CheckUnchanged() const { file_.CheckUnchanged(); }
+
   DecodeReport Run() {
     const io::FileTable& table = file_.table();
     DecodeReport report;
@@ -114,7 +117,8 @@ class DecodeJob {
     const io::MeshShape shape{vertices, faces, type, file_.table().schema, file_.table().remarks};
     return io::MeshWriter::Create(output_, shape, options_.overwrite).value();
   }
-  static void Commit(io::MeshWriter& writer, DecodeReport* report) {
+  void Commit(io::MeshWriter& writer, DecodeReport* report) const {
+    CheckUnchanged();
     writer.Commit().value();
     std::ranges::copy(writer.Warnings(), std::back_inserter(report->warnings));
   }
@@ -164,8 +168,15 @@ class DecodeJob {
 Result<DecodeReport> DecodeFile(const std::string& input, const std::string& output,
                                 const DecodeOptions& options, parallel::Runner& runner,
                                 parallel::Progress& progress) {
-  return RunGuarded<DecodeReport>(
-      [&] { return DecodeJob(input, output, options, runner, progress).Run(); });
+  return RunGuarded<DecodeReport>([&] {
+    DecodeJob job(input, output, options, runner, progress);
+    try {
+      return job.Run();
+    } catch (const Failure&) {
+      job.CheckUnchanged();
+      throw;
+    }
+  });
 }
 
 }  // namespace folprom

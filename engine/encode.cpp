@@ -25,6 +25,32 @@ BitCounts BitsOf(const CostMeters& costs) {
   return counts;
 }
 
+EncodeReport Encode(EncodeJob& job, const std::string& output, bool overwrite) {
+  auto out = io::AtomicFile::Create(output, overwrite).value();
+  job.MeasureScan();
+  job.Partition();
+  job.EncodeSubtrees(false);
+  job.EncodeSeams();
+  io::FileTable table = job.MakeTable();
+  EncodeReport report;
+  report.bytes = job.WriteFile(table, *out);
+  report.spill_bytes = job.PeakSpillBytes();
+  job.source().CheckUnchanged().value();
+  out->Commit().value();
+  report.vertices = table.vertices;
+  report.faces = table.faces;
+  report.subtrees = table.subtrees.size();
+  report.layers = table.layers.size();
+  report.bits = BitsOf(job.costs());
+  for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
+    const io::VertexAttribute& attribute = table.schema.attributes[a];
+    report.attributes.push_back(
+        {attribute.name, attribute.type, static_cast<double>(job.costs().attributes[a]) / 1024});
+  }
+  report.warnings = job.Warnings();
+  return report;
+}
+
 }  // namespace
 
 Result<EncodeReport> EncodeFile(const std::string& input, const std::string& output,
@@ -32,28 +58,13 @@ Result<EncodeReport> EncodeFile(const std::string& input, const std::string& out
                                 parallel::Progress& progress) {
   return RunGuarded<EncodeReport>([&] {
     EncodeJob job(input, options, runner, progress);
-    auto out = io::AtomicFile::Create(output, options.overwrite).value();
-    job.MeasureScan();
-    job.Partition();
-    job.EncodeSubtrees(false);
-    job.EncodeSeams();
-    io::FileTable table = job.MakeTable();
-    EncodeReport report;
-    report.bytes = job.WriteFile(table, *out);
-    report.spill_bytes = job.PeakSpillBytes();
-    out->Commit().value();
-    report.vertices = table.vertices;
-    report.faces = table.faces;
-    report.subtrees = table.subtrees.size();
-    report.layers = table.layers.size();
-    report.bits = BitsOf(job.costs());
-    for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
-      const io::VertexAttribute& attribute = table.schema.attributes[a];
-      report.attributes.push_back(
-          {attribute.name, attribute.type, static_cast<double>(job.costs().attributes[a]) / 1024});
+    try {
+      return Encode(job, output, options.overwrite);
+    } catch (const Failure&) {
+      // Passes that saw different scans fail anyhow and anywhere.
+      job.source().CheckUnchanged().value();
+      throw;
     }
-    report.warnings = job.Warnings();
-    return report;
   });
 }
 

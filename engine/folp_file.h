@@ -23,6 +23,8 @@ class FolpFile {
   const io::FileTable& table() const { return container_.table(); }
   const CodecParameters& parameters() const { return parameters_; }
   uint64_t bytes_present() const { return file_.bytes().size(); }
+  /// Failure kInput where it has been written since it was opened.
+  void CheckUnchanged() const { file_.CheckUnchanged(); }
   /// Failure kLimit where the whole mesh has more than that.
   void CheckLimits(const Limits& limits) const {
     io::CheckLimit(container_.name(), table().vertices, limits.vertices, "vertices");

@@ -94,6 +94,9 @@ class Comparison {
         progress_(progress),
         job_(original, OptionsFor(file, options), runner, progress) {}
 
+  /// Failure kInput where the scan has been written meanwhile.
+  void CheckUnchanged() const { job_.source().CheckUnchanged().value(); }
+
   void Run(uint64_t memory_bytes, const std::string& temporary_folder, VerifyReport* report) {
     const io::FileTable& table = file_.table();
     if (job_.source().vertex_count() != table.vertices ||
@@ -321,9 +324,11 @@ Result<VerifyReport> VerifyFile(const std::string& input, const std::string& ori
     } else if (original.empty()) {
       CompareDigest(file, options, runner, progress, &report);
     } else {
-      Comparison(file, original, options, runner, progress)
-          .Run(options.limits.memory_bytes, options.temporary_folder, &report);
+      Comparison comparison(file, original, options, runner, progress);
+      comparison.Run(options.limits.memory_bytes, options.temporary_folder, &report);
+      comparison.CheckUnchanged();
     }
+    file.CheckUnchanged();
     report.lossless = report.reason.empty();
     return report;
   });

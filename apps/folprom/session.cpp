@@ -9,6 +9,8 @@
 #include <atomic>
 #include <cstdio>
 
+#include "io/files/cut_pages.h"
+
 namespace folprom::cli {
 namespace {
 
@@ -43,6 +45,7 @@ void HandleSignals() {
   struct sigaction ignore = {};
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGXFSZ, &ignore, nullptr);
+  io::ReadCutPagesAsZeros();
 }
 
 }  // namespace

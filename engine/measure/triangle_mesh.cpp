@@ -84,6 +84,7 @@ TriangleMesh ReadSource(const std::string& file, const std::string& path,
   TriangleMesh mesh;
   ReadPositions(*source, path, options.take_all, runner, progress, &mesh.positions);
   ReadFaces(*source, runner, progress, &mesh.faces);
+  source->CheckUnchanged().value();
   return mesh;
 }
 

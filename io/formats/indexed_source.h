@@ -6,6 +6,7 @@
 
 #include "io/files/mapped_file.h"
 #include "io/formats/mesh_source.h"
+#include "io/result_of.h"
 
 namespace folprom::io {
 
@@ -34,6 +35,9 @@ class IndexedSource : public MeshSource {
   }
   size_t triangle_block_count() const override { return index_.triangle_blocks; }
   const SourceNotes& notes() const override { return index_.notes; }
+  Result<void> CheckUnchanged() const override {
+    return ResultOf([&] { file_.CheckUnchanged(); });
+  }
   void DropResident() const override { file_.DropResident(); }
 
  protected:

@@ -87,6 +87,10 @@ class MeshSource {
 
   virtual const SourceNotes& notes() const = 0;
 
+  /// kInput where the file has been written or cut since it was opened: what was read of it before
+  /// and after may not belong together.
+  virtual Result<void> CheckUnchanged() const { return {}; }
+
   /// Tells the kernel that the resident pages of the mapping may go (they stay in its cache). The
   /// resident size of a pass over the file is then bounded by what lies between two calls.
   virtual void DropResident() const = 0;

@@ -169,8 +169,17 @@ class BinaryOffSource final : public IndexedSource {
  private:
   const uint8_t* ReadFace(const uint8_t* face, std::vector<Triangle>& out) const {
     const uint8_t* at = face;
+    const uint8_t* const end = file().bytes().data() + file().bytes().size();
+    // The walk saw that all is there, unless the file has changed since.
+    const auto check = [&](uint64_t words) {
+      if (words > static_cast<uint64_t>(end - at) / kWord) {
+        throw Failure(ErrorKind::kInput, path() + ": the file has changed while it was read");
+      }
+    };
     const auto next = [&] { return Word(std::exchange(at, at + kWord), form_.big_endian); };
+    check(1);
     const uint64_t corners = next();
+    check(corners);
     PolygonFan fan(out);
     if (corners < 3) at += corners * kWord;  // dropped, as the walk noted
     for (uint64_t i = 0; corners >= 3 && i < corners; ++i) {
@@ -179,7 +188,9 @@ class BinaryOffSource final : public IndexedSource {
       fan.AddCorner(vertex);
     }
     if (form_.face_colours) {
+      check(1);
       const uint64_t values = next();
+      check(values);
       at += values * kWord;
     }
     return at;

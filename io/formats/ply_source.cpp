@@ -186,6 +186,9 @@ class PlySource final : public MeshSource {
   uint64_t triangle_count() const override { return blocks_.triangle_count; }
   ScalarType coordinate_type() const override { return layout_.coordinate_type; }
   const SourceNotes& notes() const override { return blocks_.notes; }
+  Result<void> CheckUnchanged() const override {
+    return ResultOf([&] { file_.CheckUnchanged(); });
+  }
   void DropResident() const override { file_.DropResident(); }
 
   size_t vertex_block_count() const override { return blocks_.vertices.size(); }

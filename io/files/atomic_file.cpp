@@ -54,7 +54,8 @@ class AtomicFileOnDisk final : public AtomicFile {
     if (!fs::is_directory(folder_)) {
       throw OutputFailure(path, "the folder " + folder_ + " does not exist");
     }
-    file_ = CreateHiddenFile(folder_, path_, &temporary_);
+    file_ = CreateUnnamedFile(folder_);
+    if (!file_.open()) file_ = CreateHiddenFile(folder_, path_, &temporary_);
     if (old_mode) ::fchmod(file_.get(), *old_mode);
   }
 
@@ -84,6 +85,7 @@ class AtomicFileOnDisk final : public AtomicFile {
   Result<void> Commit() override {
     return ResultOf([&] {
       if (::fsync(OpenFile()) != 0) ThrowSystemError(ErrorKind::kOutput, path_, "cannot sync");
+      if (temporary_.empty()) temporary_ = NameHidden(file_, folder_, path_);
       file_.CloseChecked(path_);
       Rename();
       temporary_.clear();

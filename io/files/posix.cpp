@@ -42,18 +42,53 @@ void Descriptor::CloseChecked(const std::string& path) {
   }
 }
 
-// Not mkstemp: the mode shall be that of any new file under the caller's umask.
-Descriptor CreateHiddenFile(const std::string& folder, const std::string& path, std::string* name) {
+namespace {
+
+// Calls make(name) with hidden names until one is not taken; false leaves errno of the last.
+template <class Make>
+bool TryHiddenNames(const std::string& folder, std::string* name, Make make) {
   static std::atomic<uint64_t> serial{0};
   for (int attempt = 0; attempt < 1000; ++attempt) {
     *name = (std::filesystem::path(folder) /
              (".folprom-" + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".tmp"))
                 .string();
-    Descriptor file(::open(name->c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (file.open()) return file;
+    if (make(*name)) return true;
     if (errno != EEXIST) break;
   }
   name->clear();
+  return false;
+}
+
+std::string PathOf(const Descriptor& file) {
+  return "/proc/self/fd/" + std::to_string(file.get());
+}
+
+}  // namespace
+
+// Not mkstemp: the mode shall be that of any new file under the caller's umask.
+Descriptor CreateHiddenFile(const std::string& folder, const std::string& path, std::string* name) {
+  Descriptor file;
+  const auto create = [&](const std::string& hidden) {
+    file = Descriptor(::open(hidden.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    return file.open();
+  };
+  if (TryHiddenNames(folder, name, create)) return file;
+  ThrowSystemError(ErrorKind::kOutput, path, ("cannot create a file in " + folder).c_str());
+}
+
+Descriptor CreateUnnamedFile(const std::string& folder) {
+  Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
+  if (file.open() && ::access(PathOf(file).c_str(), F_OK) != 0) return Descriptor();
+  return file;
+}
+
+std::string NameHidden(const Descriptor& file, const std::string& folder, const std::string& path) {
+  std::string name;
+  const auto link = [&](const std::string& hidden) {
+    return ::linkat(AT_FDCWD, PathOf(file).c_str(), AT_FDCWD, hidden.c_str(), AT_SYMLINK_FOLLOW) ==
+           0;
+  };
+  if (TryHiddenNames(folder, &name, link)) return name;
   ThrowSystemError(ErrorKind::kOutput, path, ("cannot create a file in " + folder).c_str());
 }
 

@@ -36,6 +36,12 @@ class Descriptor {
 /// `path`, for which it is made.
 Descriptor CreateHiddenFile(const std::string& folder, const std::string& path, std::string* name);
 
+/// A new file without a name, which is gone with its descriptor however the program ends; not open
+/// where the file system has none, or could not give it a name later.
+Descriptor CreateUnnamedFile(const std::string& folder);
+/// Gives such a file a hidden name in its folder, and returns its path. kOutput with `path`.
+std::string NameHidden(const Descriptor& file, const std::string& folder, const std::string& path);
+
 /// Writes all bytes at the descriptor's position; kOutput with `path` on any shortfall.
 void WriteAll(int fd, std::span<const uint8_t> bytes, const std::string& path);
 

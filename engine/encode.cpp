@@ -25,10 +25,14 @@ BitCounts BitsOf(const CostMeters& costs) {
   return counts;
 }
 
-EncodeReport Encode(EncodeJob& job, const std::string& output, bool overwrite) {
-  auto out = io::AtomicFile::Create(output, overwrite).value();
-  job.MeasureScan();
-  job.Partition();
+EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptions& options,
+                    Resume resume) {
+  auto out = io::AtomicFile::Create(output, options.overwrite).value();
+  if (resume == Resume::kNever || !job.Resume(output, resume)) {
+    job.CheckRoom(*out);
+    job.MeasureScan();
+    job.Partition();
+  }
   job.EncodeSubtrees(false);
   job.EncodeSeams();
   io::FileTable table = job.MakeTable();
@@ -36,6 +40,7 @@ EncodeReport Encode(EncodeJob& job, const std::string& output, bool overwrite) {
   report.bytes = job.WriteFile(table, *out);
   report.spill_bytes = job.PeakSpillBytes();
   job.source().CheckUnchanged().value();
+  report.resumed_subtrees = job.resumed_subtrees();
   out->Commit().value();
   report.vertices = table.vertices;
   report.faces = table.faces;
@@ -55,11 +60,16 @@ EncodeReport Encode(EncodeJob& job, const std::string& output, bool overwrite) {
 
 Result<EncodeReport> EncodeFile(const std::string& input, const std::string& output,
                                 const EncodeOptions& options, parallel::Runner& runner,
-                                parallel::Progress& progress) {
+                                parallel::Progress& progress, Resume resume) {
   return RunGuarded<EncodeReport>([&] {
     EncodeJob job(input, options, runner, progress);
     try {
-      return Encode(job, output, options.overwrite);
+      return Encode(job, output, options, resume);
+    } catch (const parallel::Cancelled&) {
+      const std::string kept = job.KeepSpill();
+      if (kept.empty()) throw;
+      throw Failure(ErrorKind::kInterrupted,
+                    "interrupted; the same command goes on from what is in " + kept);
     } catch (const Failure&) {
       // Passes that saw different scans fail anyhow and anywhere.
       job.source().CheckUnchanged().value();

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "engine/attributes/value_spans.h"
 #include "engine/codec/border_file.h"
+#include "engine/encode_estimate.h"
 #include "engine/exact_resolution.h"
+#include "io/container/checksum.h"
 #include "io/container/writer.h"
 #include "parallel/memory_budget.h"
 
@@ -16,14 +17,15 @@ namespace {
 
 /// What the program itself, its libraries and the tables take.
 constexpr uint64_t kFixedBytes = uint64_t{96} << 20;
-constexpr double kLatticeLimit = 1 << 30;
 
 uint64_t WorkingBytes(uint64_t memory_bytes) {
   return memory_bytes > 2 * kFixedBytes ? memory_bytes - kFixedBytes : memory_bytes / 2;
 }
 
+/// Returns the size of each; *hash: of the file.
 std::vector<uint32_t> SpillSegments(const io::SpillDirectory& spill, const std::string& name,
-                                    const std::vector<std::vector<uint8_t>>& segments) {
+                                    const std::vector<std::vector<uint8_t>>& segments,
+                                    uint64_t* hash) {
   std::vector<uint8_t> joined;
   std::vector<uint32_t> sizes;
   for (const auto& segment : segments) {
@@ -31,77 +33,11 @@ std::vector<uint32_t> SpillSegments(const io::SpillDirectory& spill, const std::
     sizes.push_back(static_cast<uint32_t>(segment.size()));
   }
   io::WriteSpillFile(spill, name, joined);
+  *hash = io::XxHash64(joined);
   return sizes;
 }
 
-std::string InnerName(size_t subtree) { return "inner." + std::to_string(subtree); }
-std::string SeamName(size_t subtree) { return "seam." + std::to_string(subtree); }
-
-/// Sides of the box for which error bounds stay inside a float and steps above its finest.
-constexpr double kSmallestSide = 1e-280, kLargestSide = kLargestTolerance;
-
-std::string Text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
-/// Distance from a float or double of this size to the next.
-double StepOf(ScalarType type, double size) {
-  if (type == ScalarType::kFloat32) {
-    float value = static_cast<float>(size);
-    return static_cast<double>(std::nextafter(value, INFINITY)) - static_cast<double>(value);
-  }
-  return std::nextafter(size, static_cast<double>(INFINITY)) - size;
-}
-
 }  // namespace
-
-ScalarType OutputType(ScalarType input) {
-  switch (input) {
-    case ScalarType::kFloat64:
-    case ScalarType::kInt32:
-    case ScalarType::kUint32:
-      return ScalarType::kFloat64;
-    default:
-      return ScalarType::kFloat32;
-  }
-}
-
-Resolution ResolutionOf(const Bounds& bounds, ScalarType type, const EncodeOptions& options) {
-  Resolution result;
-  if (bounds.empty()) return result;
-  double longest = bounds.longest();
-  if (longest > kLargestSide || (longest > 0 && longest < kSmallestSide)) {
-    throw Failure(ErrorKind::kInput, "the coordinates span " + Text(longest) + "; sides from " +
-                                         Text(kSmallestSide) + " to " + Text(kLargestSide) +
-                                         " can be coded, others with --exact");
-  }
-  double steps = static_cast<double>((uint64_t{1} << options.bits) - 1);
-  result.tolerance = options.tolerance > 0 ? options.tolerance : longest / steps / 2;
-  result.lattice.origin = bounds.lo;
-  if (!(longest > 0)) return result;
-  // Writing to float or double rounds once more: half a step of the output. Below that half the
-  // tolerance is always enough, since a vertex nearer than half a step rounds to its own value.
-  double largest = 0;
-  for (size_t i = 0; i < 3; ++i) {
-    largest = std::max({largest, std::fabs(bounds.lo[i]), std::fabs(bounds.hi[i])});
-  }
-  double inner =
-      std::max(result.tolerance - StepOf(OutputType(type), largest) / 2, result.tolerance / 2);
-  result.lattice.unit =
-      options.codec.offsets == Offsets::kLattice ? 2 * inner : inner / kUnitsPerTolerance;
-  if (!(longest / result.lattice.unit < kLatticeLimit - 2)) {
-    throw Failure(ErrorKind::kUsage, "tolerance " + Text(result.tolerance) +
-                                         " is too fine for coordinates up to " + Text(largest) +
-                                         " that span " + Text(longest));
-  }
-  for (size_t i = 0; i < 3; ++i) {
-    double side = (bounds.hi[i] - bounds.lo[i]) / result.lattice.unit;
-    result.lattice.extent[i] = static_cast<int32_t>(std::ceil(side));
-  }
-  return result;
-}
 
 EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
                      parallel::Runner& runner, parallel::Progress& progress)
@@ -109,6 +45,12 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
   CheckOptions(options).value();
   source_ = io::MeshSource::Open(input, options.limits).value();
   spill_ = std::make_unique<io::SpillDirectory>(options.temporary_folder);
+}
+
+void EncodeJob::CheckRoom(const io::AtomicFile& out) const {
+  folprom::CheckRoom(
+      {spill_->path(), io::VolumeOf(spill_->path()), EstimateSpillBytes(*source_, options_)},
+      {out.folder(), io::VolumeOf(out.folder()), EstimateFileBytes(*source_, options_)});
 }
 
 void EncodeJob::MeasureScan() {
@@ -145,22 +87,28 @@ void EncodeJob::Partition() {
   }
   source_->DropResident();
   outcomes_.resize(scan_ ? scan_->subtree_count() : 0);
+  const double typical_edge = TypicalEdge();
+  SetParameters(typical_edge);
+  if (journal_ && scan_) BeginJournal(typical_edge);
+}
+
+void EncodeJob::SetParameters(double typical_edge) {
   const auto& extent = resolution_.lattice.extent;
   parameters_.settings = options_.codec;
   parameters_.extent = {extent[0], extent[1], extent[2]};
   parameters_.exact = resolution_.lattice.exact;
   parameters_.attributes = SpansOfAttributes();
-  uint32_t per_octave = options_.codec.steps_per_octave;
-  double edge = TypicalEdge();
-  Offsets offsets = options_.codec.offsets;
-  const uint32_t first_steps = FirstStepsFor(parameters_.extent, edge, source_->vertex_count(),
-                                             options_.codec.least_layer, per_octave);
-  const PartedSteps parted =
-      PartedStepsFor(parameters_.extent, edge, first_steps, options_.codec, outcomes_.size());
+  const uint32_t per_octave = options_.codec.steps_per_octave;
+  const Offsets offsets = options_.codec.offsets;
+  const uint32_t first_steps =
+      FirstStepsFor(parameters_.extent, typical_edge, source_->vertex_count(),
+                    options_.codec.least_layer, per_octave);
+  const PartedSteps parted = PartedStepsFor(parameters_.extent, typical_edge, first_steps,
+                                            options_.codec, outcomes_.size());
   parameters_.schedule = LayerSchedule(
       parameters_.extent, per_octave, options_.codec.rounds_per_step,
-      SplitLayersFor(parameters_.extent, edge, per_octave, offsets, first_steps, parted),
-      RefineLayersFor(parameters_.extent, edge, per_octave, offsets), first_steps, parted);
+      SplitLayersFor(parameters_.extent, typical_edge, per_octave, offsets, first_steps, parted),
+      RefineLayersFor(parameters_.extent, typical_edge, per_octave, offsets), first_steps, parted);
 }
 
 bool EncodeJob::KeepsAttributes() const {
@@ -197,49 +145,62 @@ double EncodeJob::TypicalEdge() const {
 }
 
 void EncodeJob::EncodeSubtrees(bool keep_order, const char* stage) {
+  std::vector<size_t> order;
+  uint64_t done = 0;
+  first_vertex_.assign(1, 0);
+  for (size_t s = 0; s < outcomes_.size(); ++s) {
+    const uint32_t vertices = scan_->summary(s).vertices;
+    first_vertex_.push_back(first_vertex_.back() + vertices);
+    if (outcomes_[s].has_inner) {
+      done += vertices;
+    } else {
+      order.push_back(s);
+    }
+  }
   // The largest first: the last tasks to end are then small. Results do not depend on it.
-  std::vector<size_t> order(outcomes_.size());
-  std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
     return scan_->summary(a).vertices > scan_->summary(b).vertices;
   });
-  std::vector<uint64_t> first_vertex(1, 0);
-  for (size_t s = 0; s < outcomes_.size(); ++s) {
-    first_vertex.push_back(first_vertex.back() + scan_->summary(s).vertices);
-  }
   if (keep_order) order_.emplace(*spill_, "order");
   progress_.StartStage(stage, source_->vertex_count(), "vertices");
+  progress_.Advance(done);
   parallel::MemoryBudget budget(WorkingBytes(options_.limits.memory_bytes) * 3 / 4);
   runner_.ForEach(order.size(), [&](size_t i) {
-    size_t subtree = order[i];
-    const SubtreeSummary& summary = scan_->summary(subtree);
+    const SubtreeSummary& summary = scan_->summary(order[i]);
     auto lease = budget.Acquire(EncodeSubtreeBytes(summary, parameters_));
     progress_.ThrowIfCancelled();  // behind the wait: the job may have been cancelled meanwhile
-    SubtreeChunk chunk = scan_->Load(subtree);
-    size_t seen = 0;
-    // Layer by layer, for a subtree takes seconds.
-    const auto advance = [&](const SubtreeCoder& coder) {
-      progress_.Advance(coder.positions().size() - seen);
-      seen = coder.positions().size();
-    };
-    EncodedSubtree encoded =
-        EncodeSubtree(chunk, summary, static_cast<uint32_t>(subtree), parameters_, {}, advance);
-    Outcome& outcome = outcomes_[subtree];
-    outcome.inner_bytes = SpillSegments(*spill_, InnerName(subtree), encoded.segments);
-    outcome.seam_bytes.assign(outcome.inner_bytes.size(), 0);
-    outcome.distance = std::move(encoded.distance);
-    outcome.vertices = std::move(encoded.vertices);
-    outcome.faces = std::move(encoded.faces);
-    outcome.active = std::move(encoded.active);
-    outcome.digest = encoded.digest;
-    outcome.meters = encoded.meters;
-    if (!summary.neighbours.empty()) {
-      SpillBorder(*spill_, static_cast<uint32_t>(subtree), encoded.border, encoded.border_vertices);
-    }
-    if (keep_order) {
-      order_->WriteRecords<uint32_t>(first_vertex[subtree], encoded.final_vertices);
-    }
+    EncodeOne(order[i], keep_order);
   });
+}
+
+void EncodeJob::EncodeOne(size_t subtree, bool keep_order) {
+  const SubtreeSummary& summary = scan_->summary(subtree);
+  const auto number = static_cast<uint32_t>(subtree);
+  SubtreeChunk chunk = scan_->Load(subtree);
+  size_t seen = 0;
+  // Layer by layer, for a subtree takes seconds.
+  const auto advance = [&](const SubtreeCoder& coder) {
+    progress_.Advance(coder.positions().size() - seen);
+    seen = coder.positions().size();
+  };
+  EncodedSubtree encoded = EncodeSubtree(chunk, summary, number, parameters_, {}, advance);
+  SubtreeOutcome& outcome = outcomes_[subtree].inner;
+  outcome.inner_bytes =
+      SpillSegments(*spill_, InnerName(subtree), encoded.segments, &outcome.inner_hash);
+  outcome.distance = std::move(encoded.distance);
+  outcome.vertices = std::move(encoded.vertices);
+  outcome.faces = std::move(encoded.faces);
+  outcome.active = std::move(encoded.active);
+  outcome.digest = encoded.digest;
+  outcome.meters = encoded.meters;
+  if (!summary.neighbours.empty()) {
+    outcome.border_hash = SpillBorder(*spill_, number, encoded.border, encoded.border_vertices);
+  }
+  if (keep_order) {
+    order_->WriteRecords<uint32_t>(first_vertex_[subtree], encoded.final_vertices);
+  }
+  if (journal_) journal_->Add(number, outcome);
+  outcomes_[subtree].has_inner = true;
 }
 
 std::vector<uint32_t> EncodeJob::SeamMembers(size_t owner) const {
@@ -252,25 +213,33 @@ std::vector<uint32_t> EncodeJob::SeamMembers(size_t owner) const {
 
 void EncodeJob::EncodeSeams() {
   progress_.StartStage("seams", outcomes_.size());
+  parallel::MemoryBudget budget(WorkingBytes(options_.limits.memory_bytes) * 3 / 4);
   runner_.ForEach(outcomes_.size(), [&](size_t owner) {
-    std::vector<uint32_t> members = SeamMembers(owner);
-    if (!members.empty()) {
+    if (!outcomes_[owner].has_seam && !SeamMembers(owner).empty()) {
+      std::vector<uint32_t> members = SeamMembers(owner);
       members.push_back(static_cast<uint32_t>(owner));
-      std::vector<BorderFile> borders;
-      for (uint32_t member : members) borders.push_back(LoadBorder(*spill_, member));
-      SubtreeChunk chunk = scan_->Load(owner);
-      EncodedSeam seam = EncodeSeam(members, borders, chunk.cross_faces, parameters_);
-      Outcome& outcome = outcomes_[owner];
-      outcome.seam_bytes = SpillSegments(*spill_, SeamName(owner), seam.segments);
-      outcome.digest.faces += seam.digest.faces;
-      outcome.meters.seams += seam.meter;
-      for (size_t layer = 0; layer < seam.faces.size(); ++layer) {
-        outcome.faces[layer] += seam.faces[layer];
-        if (seam.active[layer]) outcome.active[layer] = true;
-      }
+      auto lease = budget.Acquire(
+          EncodeSeamBytes(BorderBytes(*spill_, members), scan_->summary(owner).cross_faces));
+      progress_.ThrowIfCancelled();
+      EncodeOneSeam(owner, members);
     }
     progress_.Advance(1);
   });
+}
+
+void EncodeJob::EncodeOneSeam(size_t owner, const std::vector<uint32_t>& members) {
+  std::vector<BorderFile> borders;
+  for (uint32_t member : members) borders.push_back(LoadBorder(*spill_, member));
+  SubtreeChunk chunk = scan_->Load(owner);
+  EncodedSeam encoded = EncodeSeam(members, borders, chunk.cross_faces, parameters_);
+  SeamOutcome& outcome = outcomes_[owner].seam;
+  outcome.bytes = SpillSegments(*spill_, SeamName(owner), encoded.segments, &outcome.hash);
+  outcome.faces = std::move(encoded.faces);
+  outcome.active = std::move(encoded.active);
+  outcome.face_digest = encoded.digest.faces;
+  outcome.meter = encoded.meter;
+  if (journal_) journal_->Add(static_cast<uint32_t>(owner), outcome);
+  outcomes_[owner].has_seam = true;
 }
 
 void EncodeJob::DropEmptyLayers() {
@@ -279,7 +248,7 @@ void EncodeJob::DropEmptyLayers() {
   uint32_t split = parameters_.schedule.split_layers(), all = parameters_.schedule.layers();
   auto active = [&](uint32_t layer) {
     return std::any_of(outcomes_.begin(), outcomes_.end(),
-                       [&](const Outcome& outcome) { return outcome.active[layer]; });
+                       [&](const Outcome& outcome) { return outcome.IsActive(layer); });
   };
   // The last split layer takes its precision from the layer before it.
   const bool lattice = options_.codec.offsets == Offsets::kLattice;
@@ -330,9 +299,10 @@ io::FileTable EncodeJob::MakeTable() {
     record.box_hi = {summary.box_hi.x, summary.box_hi.y, summary.box_hi.z};
     record.lower_neighbours = SeamMembers(s);
     table.subtrees.push_back(std::move(record));
-    table.digest.vertices += outcome.digest.vertices;
-    table.digest.faces += outcome.digest.faces;
-    costs_ += outcome.meters;
+    table.digest.vertices += outcome.inner.digest.vertices;
+    table.digest.faces += outcome.inner.digest.faces + outcome.seam.face_digest;
+    costs_ += outcome.inner.meters;
+    costs_.seams += outcome.seam.meter;
   }
   table.kind_bits = {costs_.split / 1024,
                      (costs_.root + costs_.offsets.Sum()) / 1024,
@@ -345,11 +315,12 @@ io::FileTable EncodeJob::MakeTable() {
     io::LayerRecord record;
     double distance = 0;
     for (const Outcome& outcome : outcomes_) {
-      distance = std::max(distance, outcome.distance[layer]);
-      record.vertices += outcome.vertices[layer];
-      record.faces += outcome.faces[layer];
-      table.segment_bytes.push_back(outcome.inner_bytes[layer]);
-      table.segment_bytes.push_back(outcome.seam_bytes[layer]);
+      distance = std::max(distance, outcome.inner.distance[layer]);
+      record.vertices += outcome.inner.vertices[layer];
+      record.faces += outcome.inner.faces[layer];
+      if (outcome.has_seam) record.faces += outcome.seam.faces[layer];
+      table.segment_bytes.push_back(outcome.inner.inner_bytes[layer]);
+      table.segment_bytes.push_back(outcome.has_seam ? outcome.seam.bytes[layer] : 0);
     }
     // Half a lattice unit per axis for the rounding of the original, or a
     // whole one where rests follow in the last layer.
@@ -381,7 +352,8 @@ uint64_t EncodeJob::WriteFile(const io::FileTable& table, io::AtomicFile& out) {
         last_layer = layer;
         bool inner = part == io::SegmentPart::kInner;
         const Outcome& outcome = outcomes_[subtree];
-        const auto& sizes = inner ? outcome.inner_bytes : outcome.seam_bytes;
+        if (!inner && !outcome.has_seam) return {};
+        const auto& sizes = inner ? outcome.inner.inner_bytes : outcome.seam.bytes;
         uint32_t stored = kept_layers_[layer];
         if (sizes[stored] == 0) return {};
         std::string name = inner ? InnerName(subtree) : SeamName(subtree);
@@ -393,6 +365,7 @@ uint64_t EncodeJob::WriteFile(const io::FileTable& table, io::AtomicFile& out) {
 
 std::vector<std::string> EncodeJob::Warnings() const {
   std::vector<std::string> warnings;
+  if (!resume_note_.empty()) warnings.push_back(resume_note_);
   const io::SourceNotes& notes = source_->notes();
   auto count = [](uint64_t n, const char* one, const char* many) {
     return std::to_string(n) + " " + (n == 1 ? one : many);

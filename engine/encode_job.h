@@ -9,9 +9,11 @@
 
 #include "engine/codec/encode_subtree.h"
 #include "engine/codec/parameters.h"
-#include "engine/mesh/lattice.h"
+#include "engine/encode_journal.h"
+#include "engine/encode_state.h"
 #include "engine/partition/offset_file.h"
 #include "engine/partition/partition.h"
+#include "engine/resolution.h"
 #include "folprom/folprom.h"
 #include "io/container/file_table.h"
 #include "io/files/atomic_file.h"
@@ -22,22 +24,21 @@
 
 namespace folprom {
 
-/// Lattice and tolerance of a scan. Throws Failure kUsage where the tolerance is finer than the
-/// lattice can be.
-struct Resolution {
-  Lattice lattice;
-  double tolerance = 0;  ///< asked for, model units per axis
-};
-Resolution ResolutionOf(const Bounds& bounds, ScalarType type, const EncodeOptions& options);
-
-/// Type in which decoded coordinates are written.
-ScalarType OutputType(ScalarType input);
+/// Names of the spilled segments of a subtree.
+inline std::string InnerName(size_t subtree) { return "inner." + std::to_string(subtree); }
+inline std::string SeamName(size_t subtree) { return "seam." + std::to_string(subtree); }
 
 class EncodeJob {
  public:
   EncodeJob(const std::string& input, const EncodeOptions& options, parallel::Runner& runner,
             parallel::Progress& progress);
 
+  /// Takes over what an interrupted job from the same scan to `output` left, and from now on keeps
+  /// what a later one needs. False where there is nothing to take over, or nothing that can be
+  /// trusted: the scan is then to be measured and partitioned.
+  bool Resume(const std::string& output, folprom::Resume resume);
+  /// Failure kOutput where the disks have no room for the spill and for `out`.
+  void CheckRoom(const io::AtomicFile& out) const;
   void MeasureScan();
   /// The lattice of an existing file instead of the scan's own (verify).
   void UseResolution(const Resolution& resolution) { resolution_ = resolution; }
@@ -62,6 +63,9 @@ class EncodeJob {
   uint64_t PeakSpillBytes() const {
     return std::max(spill_->SizeBytes(), scan_ ? scan_->peak_spill_bytes() : 0);
   }
+  /// Leaves the spill to a later job, where that can go on from it. Returns its path, else nothing.
+  std::string KeepSpill();
+  uint64_t resumed_subtrees() const { return resumed_subtrees_; }
   std::vector<std::string> Warnings() const;
 
  private:
@@ -71,14 +75,23 @@ class EncodeJob {
   std::vector<ValueSpan> SpansOfAttributes() const;
   /// What stays in memory of a subtree and its seam once their bits are spilled.
   struct Outcome {
-    std::vector<uint32_t> inner_bytes, seam_bytes;  ///< per layer
-    std::vector<double> distance;
-    std::vector<uint32_t> vertices;
-    std::vector<uint64_t> faces;
-    std::vector<bool> active;
-    io::MeshDigest digest;
-    CostMeters meters;
+    SubtreeOutcome inner;
+    SeamOutcome seam;  ///< no bytes: it has none
+    bool has_inner = false, has_seam = false;
+
+    bool IsActive(uint32_t layer) const {
+      return inner.active[layer] || (!seam.active.empty() && seam.active[layer]);
+    }
   };
+  void EncodeOne(size_t subtree, bool keep_order);
+  void EncodeOneSeam(size_t owner, const std::vector<uint32_t>& members);
+  /// Everything but the vertices that the partition decides.
+  void SetParameters(double typical_edge);
+  void BeginJournal(double typical_edge);
+  /// Forgets work whose spilled files are not what they were; false where the partition's are not.
+  bool CheckSpilled(const std::vector<ChunkHashes>& expected);
+  bool IsChunkIntact(size_t subtree, const ChunkHashes& expected) const;
+  bool Recover(DoneWork work);
   /// Mean edge length of a sample of every subtree, lattice units; 0 without faces.
   double TypicalEdge() const;
   void DropEmptyLayers();
@@ -89,10 +102,16 @@ class EncodeJob {
   parallel::Progress& progress_;
   std::unique_ptr<io::MeshSource> source_;
   std::unique_ptr<io::SpillDirectory> spill_;
+  JobIdentity identity_;
+  std::optional<EncodeJournal> journal_;  ///< of a job that may be continued
+  bool has_journal_ = false;              ///< the partition and its record are complete
+  std::string resume_note_;               ///< why an earlier job's files are not used
+  uint64_t resumed_subtrees_ = 0;
   Resolution resolution_;
   CodecParameters parameters_;
   std::unique_ptr<PartitionedScan> scan_;
   std::vector<Outcome> outcomes_;
+  std::vector<uint64_t> first_vertex_;  ///< of each subtree
   std::optional<partition::OffsetFile> order_;
   CostMeters costs_;
   std::vector<uint32_t> kept_layers_;

@@ -107,7 +107,8 @@ class Operator {
 
   void Encode() {
     const EncodeReport report =
-        EncodeFile(scan_.input, scan_.folp, Encoding(), *runner_, progress_).value();
+        EncodeFile(scan_.input, scan_.folp, Encoding(), *runner_, progress_, Resume::kContinue)
+            .value();
     result_->vertices = report.vertices;
     result_->faces = report.faces;
     result_->layers = report.layers;

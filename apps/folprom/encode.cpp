@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -24,6 +25,7 @@ constexpr const char* kDescription =
     "  folprom encode scan.ply -o scan.folp --bits 16 -T 8 -M 4GiB\n"
     "  folprom encode scan.ply -o scan.folp --config configs/paper.toml\n"
     "  folprom encode scan.ply -o scan.folp --exact --effort 9\n"
+    "  folprom encode scan.ply --estimate\n"
     "  folprom encode --print-config > my.toml";
 
 struct EncodeFlags {
@@ -41,6 +43,8 @@ struct EncodeFlags {
   std::optional<uint64_t> subtree_vertices;
   bool print_config = false;
   bool force = false;
+  bool restart = false;
+  bool estimate = false;
 };
 
 // Defaults, then the config file, then the flags.
@@ -102,6 +106,7 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
                {"subtrees", report.subtrees},
                {"layers", report.layers},
                {"spill_bytes", report.spill_bytes},
+               {"resumed_subtrees", report.resumed_subtrees},
                {"bits", BitsJson(report.bits)},
                {"attributes", AttributesJson(report.attributes, report.vertices)},
                {"warnings", report.warnings}});
@@ -112,7 +117,40 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
         flags.output, Grouped(report.vertices), Grouped(report.faces), Grouped(report.bytes),
         bits_per_vertex, Grouped(report.layers), Grouped(report.subtrees), seconds,
         BytesShort(PeakResidentBytes()), BytesShort(report.spill_bytes)));
+    if (report.resumed_subtrees > 0) {
+      Print(fmt::format("{} subtrees were there from the interrupted encoding\n",
+                        Grouped(report.resumed_subtrees)));
+    }
   }
+}
+
+void PrintEstimate(const EncodeFlags& flags, const EncodeEstimate& estimate) {
+  if (flags.common.json) {
+    PrintJson({{"input", flags.input},
+               {"vertices", estimate.vertices},
+               {"faces", estimate.faces},
+               {"memory_bytes", estimate.memory_bytes},
+               {"spill_bytes", estimate.spill_bytes},
+               {"file_bytes", estimate.file_bytes},
+               {"seconds", estimate.seconds}});
+  } else {
+    Print(fmt::format(
+        "{}: {} vertices, {} faces; about {} s, {} memory, {} temporary disk, {} output\n",
+        flags.input, Grouped(estimate.vertices), Grouped(estimate.faces),
+        Grouped(static_cast<uint64_t>(std::ceil(estimate.seconds))),
+        BytesShort(estimate.memory_bytes), BytesShort(estimate.spill_bytes),
+        BytesShort(estimate.file_bytes)));
+  }
+}
+
+int Estimate(const EncodeFlags& flags, const EncodeConfig& config) {
+  const auto runner = MakeRunner(flags.work, config.threads);
+  Session session(flags.common);
+  const EncodeEstimate estimate =
+      EstimateEncode(flags.input, config.options, *runner, session.progress()).value();
+  session.StopDisplay();
+  PrintEstimate(flags, estimate);
+  return 0;
 }
 
 int Run(const EncodeFlags& flags) {
@@ -122,6 +160,7 @@ int Run(const EncodeFlags& flags) {
     return 0;
   }
   if (flags.input.empty()) throw Failure(ErrorKind::kUsage, "encode needs SCAN, the mesh to read");
+  if (flags.estimate) return Estimate(flags, config);
   if (flags.output.empty()) {
     throw Failure(ErrorKind::kUsage, "encode needs -o, the file to write");
   }
@@ -131,7 +170,9 @@ int Run(const EncodeFlags& flags) {
   spdlog::debug("{} threads, {} memory", runner->threads(),
                 BytesShort(config.options.limits.memory_bytes));
   const EncodeReport report =
-      EncodeFile(flags.input, flags.output, config.options, *runner, session.progress()).value();
+      EncodeFile(flags.input, flags.output, config.options, *runner, session.progress(),
+                 flags.restart ? Resume::kRestart : Resume::kContinue)
+          .value();
   session.StopDisplay();
   LogWarnings(report.warnings);
   PrintReport(flags, report, session.seconds());
@@ -166,6 +207,10 @@ Verb AddEncode(CLI::App& program) {
       ->type_name("N");
   AddCountOption(verb, "--subtree-vertices", &flags->subtree_vertices,
                  "Largest subtree in vertices, 20k");
+  verb->add_flag("--estimate", flags->estimate,
+                 "Print time, memory, temporary disk and output it will take, and stop");
+  verb->add_flag("--restart", flags->restart,
+                 "Begin anew where an interrupted encoding could go on");
   verb->add_flag("--print-config", flags->print_config,
                  "Print the settings in force as a config file, and stop");
   AddWorkFlags(verb, &flags->work);

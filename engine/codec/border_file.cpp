@@ -3,6 +3,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "io/container/checksum.h"
+
 namespace folprom {
 namespace {
 
@@ -26,12 +28,12 @@ void Take(const uint8_t** cursor, std::vector<T>* values) {
   *cursor += count * sizeof(T);
 }
 
-std::string NameOf(uint32_t subtree) { return "border." + std::to_string(subtree); }
-
 }  // namespace
 
-void SpillBorder(const io::SpillDirectory& spill, uint32_t subtree, const BorderRecord& record,
-                 const BorderVertices& vertices) {
+std::string BorderName(uint32_t subtree) { return "border." + std::to_string(subtree); }
+
+uint64_t SpillBorder(const io::SpillDirectory& spill, uint32_t subtree, const BorderRecord& record,
+                     const BorderVertices& vertices) {
   std::vector<uint8_t> bytes;
   Append(&bytes, record.events);
   Append(&bytes, record.layer_end);
@@ -39,11 +41,18 @@ void SpillBorder(const io::SpillDirectory& spill, uint32_t subtree, const Border
   Append(&bytes, vertices.original);
   Append(&bytes, vertices.position);
   Append(&bytes, vertices.exact);
-  io::WriteSpillFile(spill, NameOf(subtree), bytes);
+  io::WriteSpillFile(spill, BorderName(subtree), bytes);
+  return io::XxHash64(bytes);
+}
+
+uint64_t BorderBytes(const io::SpillDirectory& spill, const std::vector<uint32_t>& subtrees) {
+  uint64_t bytes = 0;
+  for (uint32_t subtree : subtrees) bytes += spill.FileBytes(BorderName(subtree));
+  return bytes;
 }
 
 BorderFile LoadBorder(const io::SpillDirectory& spill, uint32_t subtree) {
-  const io::MappedFile file = io::MapSpillFile(spill.File(NameOf(subtree)));
+  const io::MappedFile file = io::MapSpillFile(spill.File(BorderName(subtree)));
   const uint8_t* cursor = file.bytes().data();
   BorderFile border;
   std::vector<Int3> root;

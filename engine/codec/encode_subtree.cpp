@@ -157,6 +157,12 @@ EncodedSubtree EncodeSubtree(const SubtreeChunk& chunk, const SubtreeSummary& su
   return result;
 }
 
+uint64_t EncodeSeamBytes(uint64_t border_bytes, uint64_t cross_faces) {
+  // A border vertex takes 56 bytes in the file and as many as a vertex of a subtree in the complex;
+  // a cross face stands in the chunk and in the oracle.
+  return (uint64_t{1} << 20) + border_bytes * 12 + cross_faces * (sizeof(CrossFace) + 110);
+}
+
 EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees,
                        const std::vector<BorderFile>& borders,
                        std::span<const CrossFace> cross_faces, const CodecParameters& parameters) {

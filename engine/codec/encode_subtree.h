@@ -62,6 +62,10 @@ struct BorderFile {
   BorderVertices vertices;
 };
 
+/// Estimate of the memory that EncodeSeam takes, its arguments included. border_bytes: of the files
+/// of the records.
+uint64_t EncodeSeamBytes(uint64_t border_bytes, uint64_t cross_faces);
+
 /// Encodes the seam of an owner from complete records.
 EncodedSeam EncodeSeam(const std::vector<uint32_t>& subtrees,
                        const std::vector<BorderFile>& borders,

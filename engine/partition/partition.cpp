@@ -42,6 +42,23 @@ class SpilledScan final : public PartitionedScan {
     }
   }
 
+  /// One whose streams are there already.
+  SpilledScan(const io::SpillDirectory& spill, std::vector<SubtreeSummary> subtrees,
+              std::vector<io::AttributeRange> ranges, bool with_exact, size_t attribute_bytes,
+              uint64_t peak_spill_bytes)
+      : subtrees_(std::move(subtrees)),
+        positions_(spill, "partition.positions", VertexBytes(sizeof(Int3))),
+        faces_(spill, "partition.faces", FaceBytes(sizeof(Face), &SubtreeSummary::faces)),
+        cross_faces_(spill, "partition.cross",
+                     FaceBytes(sizeof(CrossFace), &SubtreeSummary::cross_faces)),
+        ranges_(std::move(ranges)),
+        peak_spill_bytes_(peak_spill_bytes) {
+    if (with_exact) exact_.emplace(spill, "partition.exact", VertexBytes(sizeof(ExactPosition)));
+    if (attribute_bytes > 0) {
+      attributes_.emplace(spill, "partition.attributes", VertexBytes(attribute_bytes));
+    }
+  }
+
   /// The two scatter passes.
   void Fill(Job& job, const OffsetFile& records, std::span<const uint32_t> subtree_of_voxel) {
     OffsetFile refs(job.spill, "partition.vertex_map");
@@ -88,6 +105,17 @@ class SpilledScan final : public PartitionedScan {
   }
 
  private:
+  std::vector<uint64_t> VertexBytes(uint64_t each) const {
+    std::vector<uint64_t> bytes;
+    for (const SubtreeSummary& subtree : subtrees_) bytes.push_back(subtree.vertices * each);
+    return bytes;
+  }
+  std::vector<uint64_t> FaceBytes(uint64_t each, uint64_t SubtreeSummary::*count) const {
+    std::vector<uint64_t> bytes;
+    for (const SubtreeSummary& subtree : subtrees_) bytes.push_back(subtree.*count * each);
+    return bytes;
+  }
+
   std::vector<SubtreeSummary> subtrees_;
   io::SpillStreams positions_;
   io::SpillStreams faces_;
@@ -133,6 +161,14 @@ std::unique_ptr<PartitionedScan> PartitionScan(const io::MeshSource& source, con
   partition::Job job{source,       lattice, settings, with_attributes,
                      memory_bytes, runner,  spill,    progress};
   return partition::Run(job);
+}
+
+std::unique_ptr<PartitionedScan> ReopenScan(const io::SpillDirectory& spill,
+                                            std::vector<SubtreeSummary> summaries,
+                                            std::vector<io::AttributeRange> ranges, bool with_exact,
+                                            size_t attribute_bytes, uint64_t peak_spill_bytes) {
+  return std::make_unique<partition::SpilledScan>(spill, std::move(summaries), std::move(ranges),
+                                                  with_exact, attribute_bytes, peak_spill_bytes);
 }
 
 }  // namespace folprom

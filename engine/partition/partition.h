@@ -55,7 +55,7 @@ class PartitionedScan {
   virtual uint64_t peak_spill_bytes() const = 0;
   /// Of each attribute of the source, where they are kept.
   virtual std::span<const io::AttributeRange> attribute_ranges() const = 0;
-  /// Input vertex index -> (subtree, local); mapped, in the order of the file.
+  /// Input vertex index -> (subtree, local); mapped, in the order of the file. None: reopened scan.
   virtual std::span<const VertexRef> vertex_map() const = 0;
 };
 
@@ -74,5 +74,12 @@ std::unique_ptr<PartitionedScan> PartitionScan(const io::MeshSource& source, con
                                                const io::SpillDirectory& spill,
                                                parallel::Progress& progress,
                                                bool with_attributes = false);
+
+/// A partition whose chunks lie in the kept spill of another process; they are not looked at here.
+/// attribute_bytes: of a vertex, 0 where none are kept.
+std::unique_ptr<PartitionedScan> ReopenScan(const io::SpillDirectory& spill,
+                                            std::vector<SubtreeSummary> summaries,
+                                            std::vector<io::AttributeRange> ranges, bool with_exact,
+                                            size_t attribute_bytes, uint64_t peak_spill_bytes);
 
 }  // namespace folprom

@@ -2,9 +2,12 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 
@@ -18,9 +21,29 @@ namespace fs = std::filesystem;
 constexpr size_t kSmallestBuffer = 4096;
 constexpr size_t kLargestBuffer = size_t{1} << 20;
 
-std::string DefaultParent() {
+std::string ParentOr(const std::string& parent) {
+  if (!parent.empty()) return parent;
   const char* folder = std::getenv("TMPDIR");
   return folder != nullptr && *folder != '\0' ? folder : "/tmp";
+}
+
+// The folder, locked; none where another process has it or it is not this user's alone.
+Descriptor LockFolder(const std::string& path) {
+  Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  struct stat status {};
+  if (!folder.open() || ::fstat(folder.get(), &status) != 0 || status.st_uid != ::geteuid() ||
+      (status.st_mode & 077) != 0 || ::flock(folder.get(), LOCK_EX | LOCK_NB) != 0) {
+    return Descriptor();
+  }
+  return folder;
+}
+
+// Between opening a folder and locking it another process may have removed it.
+bool IsStillThere(const Descriptor& folder, const std::string& path) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(folder.get(), &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 Descriptor OpenForWriting(const std::string& path, int flags) {
@@ -38,20 +61,56 @@ void AppendToFile(const std::string& path, std::span<const uint8_t> bytes) {
 }  // namespace
 
 SpillDirectory::SpillDirectory(const std::string& parent) {
-  path_ = (fs::path(parent.empty() ? DefaultParent() : parent) / "folprom-XXXXXX").string();
+  path_ = (fs::path(ParentOr(parent)) / "folprom-XXXXXX").string();
   if (::mkdtemp(path_.data()) == nullptr) {
-    ThrowSystemError(ErrorKind::kOutput, parent.empty() ? DefaultParent() : parent,
-                     "cannot create a temporary folder");
+    ThrowSystemError(ErrorKind::kOutput, ParentOr(parent), "cannot create a temporary folder");
   }
 }
 
+std::unique_ptr<SpillDirectory> SpillDirectory::OpenNamed(const std::string& parent,
+                                                          const std::string& name) {
+  const std::string path = (fs::path(ParentOr(parent)) / ("folprom-" + name)).string();
+  constexpr int kAttempts = 100;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) {
+      ThrowSystemError(ErrorKind::kOutput, ParentOr(parent), "cannot create a temporary folder");
+    }
+    Descriptor lock = LockFolder(path);
+    if (!lock.open()) {
+      if (errno == ENOENT) continue;
+      return nullptr;
+    }
+    if (!IsStillThere(lock, path)) continue;
+    return std::unique_ptr<SpillDirectory>(new SpillDirectory(path, std::move(lock)));
+  }
+  return nullptr;
+}
+
 SpillDirectory::~SpillDirectory() {
+  if (kept_) return;
   std::error_code ignored;  // nothing is left to do about it
   fs::remove_all(path_, ignored);
 }
 
+void SpillDirectory::Clear() const {
+  std::error_code error;
+  fs::directory_iterator entry(path_, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    fs::remove_all(entry->path(), error);
+    if (error) break;
+  }
+  if (error) throw Failure(ErrorKind::kOutput, path_ + ": cannot be emptied: " + error.message());
+}
+
 std::string SpillDirectory::File(const std::string& name) const {
   return (fs::path(path_) / name).string();
+}
+
+uint64_t SpillDirectory::FileBytes(const std::string& name) const {
+  std::error_code error;
+  const uint64_t bytes = fs::file_size(File(name), error);
+  if (error) throw Failure(ErrorKind::kOutput, File(name) + ": " + error.message());
+  return bytes;
 }
 
 uint64_t SpillDirectory::SizeBytes() const {
@@ -129,6 +188,14 @@ SpillStreams::SpillStreams(const SpillDirectory& directory, std::string name, si
       share / kSmallestBuffer * kSmallestBuffer, kSmallestBuffer, kLargestBuffer));
   impl_->buffers_left = static_cast<size_t>(std::clamp<uint64_t>(
       buffer_bytes / impl_->buffer_size, 1, std::max<size_t>(stream_count, 1)));
+}
+
+SpillStreams::SpillStreams(const SpillDirectory& directory, std::string name,
+                           std::span<const uint64_t> stream_bytes)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->prefix = directory.File(name + ".");
+  impl_->streams.resize(stream_bytes.size());
+  for (size_t i = 0; i < stream_bytes.size(); ++i) impl_->streams[i].written = stream_bytes[i];
 }
 
 SpillStreams::~SpillStreams() = default;

@@ -5,30 +5,50 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "folprom/result.h"
 #include "io/files/mapped_file.h"
+#include "io/files/posix.h"
 
 namespace folprom::io {
 
-/// A fresh private folder below `parent` (empty: $TMPDIR or /tmp). Removed, with all in it, by the
-/// destructor. All errors are thrown as Failure kOutput (disk full, not writable), with the path.
+/// A private folder below `parent` (empty: $TMPDIR or /tmp). Removed, with all in it, by the
+/// destructor unless it is kept. All errors are thrown as Failure kOutput (disk full, not
+/// writable), with the path.
 class SpillDirectory {
  public:
+  /// A fresh one.
   explicit SpillDirectory(const std::string& parent);
+  /// The folder "folprom-<name>", with what an earlier process left in it; made where it is not
+  /// there. Nobody else opens it so while the object lives. Null where another process has it, or
+  /// where it cannot be told to be this user's alone.
+  static std::unique_ptr<SpillDirectory> OpenNamed(const std::string& parent,
+                                                   const std::string& name);
   ~SpillDirectory();
   SpillDirectory(const SpillDirectory&) = delete;
   SpillDirectory& operator=(const SpillDirectory&) = delete;
 
   const std::string& path() const { return path_; }
+  /// Removes all in it.
+  void Clear() const;
+  /// The destructor leaves the folder for a later OpenNamed.
+  void Keep() { kept_ = true; }
   /// Path of a file `name` inside.
   std::string File(const std::string& name) const;
+  /// Bytes of one file inside.
+  uint64_t FileBytes(const std::string& name) const;
   /// Bytes of all files inside at this moment.
   uint64_t SizeBytes() const;
 
  private:
+  SpillDirectory(std::string path, Descriptor lock)
+      : path_(std::move(path)), lock_(std::move(lock)) {}
+
   std::string path_;
+  Descriptor lock_;  ///< the folder itself, where it has a name that others could open
+  bool kept_ = false;
 };
 
 /// `stream_count` append-only files "<name>.<index>" with one buffer each; buffers together take at
@@ -37,6 +57,9 @@ class SpillStreams {
  public:
   SpillStreams(const SpillDirectory& directory, std::string name, size_t stream_count,
                uint64_t buffer_bytes);
+  /// Finished ones that were left in a kept folder, each of so many bytes.
+  SpillStreams(const SpillDirectory& directory, std::string name,
+               std::span<const uint64_t> stream_bytes);
   ~SpillStreams();
   void Append(size_t stream, const void* bytes, size_t size);
   template <class T>

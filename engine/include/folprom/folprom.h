@@ -39,16 +39,42 @@ struct EncodeReport {
   uint64_t subtrees = 0;
   uint64_t layers = 0;
   uint64_t spill_bytes = 0;               ///< temporary disk used at the peak
+  uint64_t resumed_subtrees = 0;          ///< taken over from an interrupted call
   BitCounts bits;                         ///< over the whole file, without rounding to bytes
   std::vector<AttributeInfo> attributes;  ///< of the vertices, that were kept
   std::vector<std::string> warnings;
 };
 
+/// What becomes of the work of a call that is cancelled or killed.
+enum class Resume : uint8_t {
+  kNever = 0,  ///< a cancelled call leaves nothing
+  /// Once the scan is cut into subtrees the call leaves its temporary files, and the same call
+  /// (scan, output, temporary folder) goes on from them where scan, settings and program are the
+  /// same and the files undamaged. They go when a call ends otherwise.
+  kContinue = 1,
+  kRestart = 2  ///< as kContinue, but what an earlier call left is removed unused
+};
+
 /// Encodes a scan. Same bytes for every runner and memory limit. Errors: kUsage (settings), kInput,
-/// kOutput, kLimit, kInterrupted; nothing is left behind after an error.
+/// kOutput, kLimit, kInterrupted; nothing is left behind after an error, but for what
+/// `resume` says. kOutput before any work where the disk has no room for temporary files or output.
 Result<EncodeReport> EncodeFile(const std::string& input, const std::string& output,
                                 const EncodeOptions& options, parallel::Runner& runner,
-                                parallel::Progress& progress);
+                                parallel::Progress& progress, Resume resume = Resume::kNever);
+
+/// What an encoding will take, from the size of the scan and a sample of it.
+struct EncodeEstimate {
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+  uint64_t memory_bytes = 0;  ///< resident at the peak; at most the limit where that can be kept
+  uint64_t spill_bytes = 0;   ///< temporary disk at the peak; within a tenth
+  uint64_t file_bytes = 0;    ///< of the output; within a factor of two for most scans
+  double seconds = 0;         ///< by how long this machine takes for a small surface, now
+};
+
+/// Errors: kUsage, kInput, kLimit, kInterrupted.
+Result<EncodeEstimate> EstimateEncode(const std::string& input, const EncodeOptions& options,
+                                      parallel::Runner& runner, parallel::Progress& progress);
 
 struct DecodeReport {
   uint64_t vertices = 0;

@@ -9,8 +9,8 @@ namespace folprom {
 /// comments, what goes beyond is dropped with a warning. They are far above what scans have: they
 /// are for inputs that lie. None alters what comes of an input that keeps them.
 struct Limits {
-  /// Resident size to stay below: work is cut so that it fits. The seams do not count their memory
-  /// by it: a thread holds the border records of a subtree and its lower neighbours.
+  /// Resident size to stay below: fewer subtrees are then worked on at once, but always one, with
+  /// the subtrees around it while its seam is coded.
   uint64_t memory_bytes = uint64_t{2} << 30;
   uint64_t vertices = 10'000'000'000;           ///< of a scan, or of the scan in a file
   uint64_t faces = 20'000'000'000;              ///< the same, as triangles

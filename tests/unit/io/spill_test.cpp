@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "io/files/atomic_file.h"
 #include "support.h"
 
 namespace folprom::io {
@@ -49,6 +50,56 @@ TEST(SpillDirectory, FollowsTheTemporaryFolderOfTheUser) {
   const std::string path = SpillDirectory("").path();
   old.empty() ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", old.c_str(), 1);
   EXPECT_TRUE(path.starts_with(parent.path() + "/folprom-")) << path;
+}
+
+TEST(SpillDirectory, NamedOneIsTakenOverOnceItsOwnerIsGone) {
+  const TemporaryFolder parent;
+  {
+    const auto first = SpillDirectory::OpenNamed(parent.path(), "job");
+    ASSERT_NE(first, nullptr);
+    EXPECT_EQ(first->path(), parent.File("folprom-job"));
+    EXPECT_EQ(SpillDirectory::OpenNamed(parent.path(), "job"), nullptr);
+    WriteSpillFile(*first, "some", std::vector<uint8_t>(5));
+    first->Keep();
+  }
+  {
+    const auto second = SpillDirectory::OpenNamed(parent.path(), "job");
+    ASSERT_NE(second, nullptr);
+    EXPECT_EQ(second->FileBytes("some"), 5U);
+    second->Clear();
+    EXPECT_EQ(second->SizeBytes(), 0U);
+    EXPECT_THROW(second->FileBytes("some"), Failure);
+  }
+  EXPECT_TRUE(parent.Names().empty());
+}
+
+TEST(SpillDirectory, NamedOneThatOthersCouldReadOrThatIsNoFolderIsLeftAlone) {
+  const TemporaryFolder parent;
+  std::filesystem::create_directory(parent.File("folprom-open"));
+  std::filesystem::permissions(parent.File("folprom-open"), std::filesystem::perms(0755));
+  std::filesystem::create_directory_symlink(parent.path(), parent.File("folprom-link"));
+  WriteWholeFile(parent.File("folprom-file"), "text", false).value();
+  const auto before = parent.Names();
+  for (const char* name : {"open", "link", "file"}) {
+    EXPECT_EQ(SpillDirectory::OpenNamed(parent.path(), name), nullptr) << name;
+  }
+  EXPECT_EQ(parent.Names(), before);
+}
+
+TEST(SpillStreams, FinishedOnesOfAKeptFolderAreMappedAgain) {
+  const TemporaryFolder parent;
+  const SpillDirectory directory(parent.path());
+  {
+    SpillStreams streams(directory, "chunk", 3, 1 << 16);
+    for (uint32_t i = 0; i < 10000; ++i) streams.AppendValue(i % 2, i);
+    streams.Finish();
+  }
+  const SpillStreams again(directory, "chunk", std::vector<uint64_t>{20000, 20000, 0});
+  const MappedFile odd = again.Map(1);
+  EXPECT_EQ(MappedArray<uint32_t>(odd)[4999], 9999U);
+  EXPECT_TRUE(again.Map(2).bytes().empty());
+  const SpillStreams longer(directory, "chunk", std::vector<uint64_t>{20004});
+  EXPECT_THROW(longer.Map(0), Failure);
 }
 
 // Streams of many lengths, written in an order that jumps between them.

@@ -1,0 +1,224 @@
+#include "engine/encode_estimate.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "engine/codec/encode_subtree.h"
+#include "engine/mesh/types.h"
+#include "engine/run_guarded.h"
+#include "folprom/folprom.h"
+#include "io/spill/spill.h"
+#include "parallel/runner.h"
+
+namespace folprom {
+namespace {
+
+uint64_t SubtreesOf(const io::MeshSource& source, const EncodeOptions& options) {
+  // The cut leaves subtrees a little smaller than allowed.
+  const double vertices = static_cast<double>(source.vertex_count());
+  const double most = static_cast<double>(options.codec.subtree_vertices);
+  return vertices <= most ? 1 : static_cast<uint64_t>(std::ceil(1.08 * vertices / most));
+}
+
+uint64_t AttributeStride(const io::MeshSource& source, const EncodeOptions& options) {
+  const bool kept = options.attributes && options.codec.offsets == Offsets::kLattice;
+  return kept ? source.vertex_schema().Stride() : 0;
+}
+
+/// Sides of the box of a few blocks, those that are finite, in falling order.
+std::array<double, 3> SampledSides(const io::MeshSource& source) {
+  constexpr size_t kBlocks = 8;
+  const size_t blocks = source.vertex_block_count(), step = std::max<size_t>(blocks / kBlocks, 1);
+  std::array<double, 3> lo, hi;
+  lo.fill(INFINITY);
+  hi.fill(-INFINITY);
+  std::vector<double> xyz;
+  for (size_t block = 0; block < blocks; block += step) {
+    source.ReadVertexBlock(block, &xyz).value();
+    for (size_t i = 0; i < xyz.size(); ++i) {
+      if (!std::isfinite(xyz[i])) continue;
+      lo[i % 3] = std::min(lo[i % 3], xyz[i]);
+      hi[i % 3] = std::max(hi[i % 3], xyz[i]);
+    }
+  }
+  source.DropResident();
+  std::array<double, 3> sides;
+  for (size_t i = 0; i < 3; ++i) sides[i] = std::max(hi[i] - lo[i], 0.0);
+  std::sort(sides.begin(), sides.end(), std::greater<>());
+  return sides;
+}
+
+/// Steps of the lattice between neighbouring vertices of a surface that fills the box as most scans
+/// do; at least 1.
+double SpacingInSteps(const io::MeshSource& source, const EncodeOptions& options) {
+  const auto [a, b, c] = SampledSides(source);
+  if (!(a > 0) || source.vertex_count() == 0) return 1;
+  constexpr double kExactSteps = 1 << 20;  // decimals of common scans are about as fine
+  double step = a / static_cast<double>((uint64_t{1} << options.bits) - 1);
+  if (options.tolerance > 0) step = 2 * options.tolerance;
+  if (options.exact) step = a / kExactSteps;
+  const double area = std::max(a * b + b * c + c * a, a * a / 100);
+  return std::max(std::sqrt(area / static_cast<double>(source.vertex_count())) / step, 1.0);
+}
+
+std::string Text(uint64_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f MiB", static_cast<double>(bytes) / (1 << 20));
+  return text;
+}
+
+[[noreturn]] void ThrowNoRoom(const std::string& folder, const std::string& what, uint64_t needed,
+                              uint64_t free) {
+  throw Failure(ErrorKind::kOutput, folder + ": no room: " + what + " take about " + Text(needed) +
+                                        ", " + Text(free) + " are free");
+}
+
+/// A rough sheet of side x side vertices a unit apart, as a binary PLY file.
+std::vector<uint8_t> SheetFile(uint32_t side) {
+  char header[256];
+  const int size = std::snprintf(
+      header, sizeof header,
+      "ply\nformat binary_little_endian 1.0\nelement vertex %u\nproperty float x\nproperty float "
+      "y\nproperty float z\nelement face %u\nproperty list uchar int vertex_indices\nend_header\n",
+      side * side, 2 * (side - 1) * (side - 1));
+  std::vector<uint8_t> bytes(header, header + size);
+  const auto put = [&](const auto& value) {
+    bytes.resize(bytes.size() + sizeof value);
+    std::memcpy(bytes.data() + bytes.size() - sizeof value, &value, sizeof value);
+  };
+  uint32_t random = 1;
+  const auto jitter = [&] {
+    random = random * 1664525 + 1013904223;
+    return 0.5F * static_cast<float>(random >> 8) / static_cast<float>(1 << 24);
+  };
+  for (uint32_t v = 0; v < side * side; ++v) {
+    const auto x = static_cast<float>(v % side), y = static_cast<float>(v / side);
+    put(x + jitter());
+    put(y + jitter());
+    put(10 * std::sin(x / 17) * std::cos(y / 13) + jitter());
+  }
+  const auto face = [&](uint32_t a, uint32_t b, uint32_t c) {
+    put(uint8_t{3});
+    put(a);
+    put(b);
+    put(c);
+  };
+  for (uint32_t v = 0; v < side * (side - 1); ++v) {
+    if (v % side + 1 == side) continue;
+    face(v, v + 1, v + side);
+    face(v + 1, v + side + 1, v + side);
+  }
+  return bytes;
+}
+
+/// One thread, now, with these settings.
+double SecondsPerVertex(EncodeOptions options, double spacing_in_steps,
+                        parallel::Progress& progress) {
+  constexpr uint32_t kSide = 160;
+  const io::SpillDirectory folder(options.temporary_folder);
+  io::WriteSpillFile(folder, "sheet.ply", SheetFile(kSide));
+  options.temporary_folder = folder.path();
+  if (!options.exact) options.tolerance = 0.5 / spacing_in_steps;
+  const auto runner = parallel::MakeSerialRunner();
+  const auto begin = std::chrono::steady_clock::now();
+  EncodeFile(folder.File("sheet.ply"), folder.File("sheet.folp"), options, *runner, progress)
+      .value();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  return seconds.count() / (kSide * kSide);
+}
+
+/// Memory of one subtree under way.
+uint64_t SubtreeBytes(const io::MeshSource& source, const EncodeOptions& options) {
+  const uint64_t vertices = std::max<uint64_t>(source.vertex_count(), 1);
+  SubtreeSummary summary;
+  summary.vertices = static_cast<uint32_t>(
+      std::min<uint64_t>(source.vertex_count(), options.codec.subtree_vertices));
+  summary.faces = static_cast<uint64_t>(static_cast<double>(source.triangle_count()) *
+                                        summary.vertices / static_cast<double>(vertices));
+  CodecParameters parameters;
+  if (options.exact) parameters.exact.emplace();
+  if (AttributeStride(source, options) > 0) {
+    parameters.attributes.resize(source.vertex_schema().attributes.size());
+  }
+  return EncodeSubtreeBytes(summary, parameters);
+}
+
+/// Of the partition: what its passes keep mapped and buffered.
+uint64_t PartitionBytes(const io::MeshSource& source, const EncodeOptions& options) {
+  const uint64_t memory = options.memory_bytes;
+  const uint64_t mapped = std::min(memory / 8, 16 * source.vertex_count()) +
+                          std::min(memory / 16, 16 * source.vertex_count()) +
+                          std::min(memory / 16, 8 * source.vertex_count());
+  const uint64_t buffers = std::min(memory / 8, SubtreesOf(source, options) * (128 << 10));
+  return mapped + buffers;
+}
+
+}  // namespace
+
+uint64_t EstimateSpillBytes(const io::MeshSource& source, const EncodeOptions& options) {
+  // Records of the passes, positions and the map of vertices; where a lattice may leave rests, the
+  // coordinates themselves.
+  uint64_t vertex_bytes = 16 + sizeof(Int3) + sizeof(VertexRef) + AttributeStride(source, options);
+  if (options.exact) vertex_bytes += sizeof(ExactPosition);
+  // Cross faces, in two subtrees each or three: a border grows with the root of the vertices.
+  const uint64_t subtrees = SubtreesOf(source, options);
+  const auto border = static_cast<uint64_t>(
+      subtrees == 1 ? 0 : 10 * std::sqrt(static_cast<double>(options.codec.subtree_vertices)));
+  return source.vertex_count() * vertex_bytes + source.triangle_count() * sizeof(Face) +
+         subtrees * border * sizeof(CrossFace);
+}
+
+uint64_t EstimateFileBytes(const io::MeshSource& source, const EncodeOptions& options) {
+  const double bits =
+      6 + 2.2 * std::log2(SpacingInSteps(source, options)) + (options.exact ? 6 : 0) +
+      4 * static_cast<double>(AttributeStride(source, options));  // half of what they have
+  return static_cast<uint64_t>(bits / 8 * static_cast<double>(source.vertex_count())) + 1024;
+}
+
+void CheckRoom(const RoomNeeded& spill, const RoomNeeded& output) {
+  if (spill.volume.id == output.volume.id) {
+    const uint64_t both = spill.bytes + output.bytes;
+    if (both > spill.volume.free_bytes) {
+      ThrowNoRoom(spill.folder, "temporary files and output", both, spill.volume.free_bytes);
+    }
+    return;
+  }
+  if (spill.bytes > spill.volume.free_bytes) {
+    ThrowNoRoom(spill.folder, "temporary files", spill.bytes, spill.volume.free_bytes);
+  }
+  if (output.bytes > output.volume.free_bytes) {
+    ThrowNoRoom(output.folder, "the bytes of the output", output.bytes, output.volume.free_bytes);
+  }
+}
+
+Result<EncodeEstimate> EstimateEncode(const std::string& input, const EncodeOptions& options,
+                                      parallel::Runner& runner, parallel::Progress& progress) {
+  return RunGuarded<EncodeEstimate>([&] {
+    CheckOptions(options).value();
+    const auto source = io::MeshSource::Open(input).value();
+    EncodeEstimate estimate;
+    estimate.vertices = source->vertex_count();
+    estimate.faces = source->triangle_count();
+    estimate.spill_bytes = EstimateSpillBytes(*source, options);
+    estimate.file_bytes = EstimateFileBytes(*source, options);
+    constexpr uint64_t kProgramBytes = uint64_t{40} << 20;
+    const uint64_t one = SubtreeBytes(*source, options);
+    const uint64_t at_once = std::clamp<uint64_t>(
+        options.memory_bytes * 3 / 4 / one, 1,
+        std::min(SubtreesOf(*source, options), static_cast<uint64_t>(runner.threads())));
+    estimate.memory_bytes =
+        kProgramBytes + std::max(at_once * one, PartitionBytes(*source, options));
+    const double per_vertex = SecondsPerVertex(options, SpacingInSteps(*source, options), progress);
+    estimate.seconds =
+        per_vertex * static_cast<double>(estimate.vertices) / static_cast<double>(at_once);
+    return estimate;
+  });
+}
+
+}  // namespace folprom

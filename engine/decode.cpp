@@ -76,11 +76,21 @@ DecodeSelection SelectionFor(const FolpFile& file, const DecodeOptions& options)
   return selection;
 }
 
+Extent ExtentOf(const DecodeOptions& options) {
+  const bool has_bound = options.bits_per_vertex > 0 || options.max_error > 0 ||
+                         options.max_vertices > 0 || options.layers > 0;
+  return has_bound || options.use_region ? Extent::kPart : Extent::kAll;
+}
+
 class DecodeJob {
  public:
   DecodeJob(const std::string& input, const std::string& output, const DecodeOptions& options,
             parallel::Runner& runner, parallel::Progress& progress)
-      : output_(output), options_(options), runner_(runner), progress_(progress), file_(input) {
+      : output_(output),
+        options_(options),
+        runner_(runner),
+        progress_(progress),
+        file_(input, ExtentOf(options)) {
     CheckOptions(options);
     file_.CheckLimits(options.limits);
     io::OutputFormat(output).value();
@@ -96,7 +106,6 @@ class DecodeJob {
     report.layers = selection_.layers;
     report.layers_total = file_.container().layers_total();
     report.complete = report.layers == report.layers_total && !options_.use_region;
-    report.bytes_read = BytesNeeded(file_.container(), selection_);
     report.error_bound = static_cast<double>(table.layers[selection_.layers - 1].error_bound);
     size_t present = file_.container().complete_layers();
     if (present < report.layers_total) {
@@ -108,6 +117,7 @@ class DecodeJob {
     } else {
       DecodeAll(&report);
     }
+    report.bytes_read = BytesOf(file_.container(), selection_.layers, decoded_);
     return report;
   }
 
@@ -123,8 +133,9 @@ class DecodeJob {
     std::ranges::copy(writer.Warnings(), std::back_inserter(report->warnings));
   }
   void Decode(MeshSink& sink) {
-    DecodeInto(file_.container(), file_.parameters(), selection_, options_.limits.memory_bytes,
-               options_.temporary_folder, runner_, progress_, sink);
+    decoded_ =
+        DecodeInto(file_.container(), file_.parameters(), selection_, options_.limits.memory_bytes,
+                   options_.temporary_folder, runner_, progress_, sink);
   }
 
   void DecodeAll(DecodeReport* report) {
@@ -161,6 +172,7 @@ class DecodeJob {
   parallel::Progress& progress_;
   FolpFile file_;
   DecodeSelection selection_;
+  DecodedSegments decoded_;
 };
 
 }  // namespace

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
 #include "engine/codec/border_file.h"
 #include "engine/codec/layer_reader.h"
+#include "parallel/memory_budget.h"
 
 namespace folprom {
 namespace {
@@ -14,6 +16,10 @@ namespace {
 /// Per vertex of a subtree: complex, cells and sets 560, results 60; exact positions twice; of each
 /// attribute 8 as it is coded, and twice what the scan has.
 constexpr uint64_t kBytesPerVertex = 620, kExactBytesPerVertex = 48, kAttributeBytesPerVertex = 24;
+
+/// Memory of a seam for each byte of the border files that it reads: an event takes 40 bytes there,
+/// and its vertex as many as one of a subtree in the complex.
+constexpr uint64_t kSeamBytesPerByte = 14;
 
 /// How many subtrees may be under way or waiting for their turn.
 size_t WindowOf(const io::FileTable& table, const std::vector<uint32_t>& subtrees, bool off_lattice,
@@ -47,7 +53,6 @@ class Pipeline {
         lattice_(LatticeOf(table_, parameters_)),
         error_bound_(static_cast<double>(table_.layers[selection.layers - 1].error_bound)),
         selection_(selection),
-        needed_(NeededSubtrees(table_, selection.wanted)),
         has_border_(SubtreesWithBorder(table_)),
         memory_bytes_(memory_bytes),
         runner_(runner),
@@ -58,9 +63,16 @@ class Pipeline {
     }
   }
 
-  void Run() {
-    DecodeSubtrees();
-    DecodeSeams();
+  DecodedSegments Run() {
+    DecodedSegments decoded;
+    DecodeWanted();
+    decoded.seams = NeededSeams();
+    const std::vector<uint32_t> around = OthersBeside(decoded.seams);
+    DecodeOthers(around);
+    DecodeSeams(decoded.seams);
+    std::set_union(selection_.wanted.begin(), selection_.wanted.end(), around.begin(), around.end(),
+                   std::back_inserter(decoded.subtrees));
+    return decoded;
   }
 
  private:
@@ -69,9 +81,9 @@ class Pipeline {
   }
 
   /// Vertices to be decoded; where neither all layers nor all subtrees are, about so many.
-  uint64_t VerticesNeeded() const {
+  uint64_t VerticesOf(const std::vector<uint32_t>& subtrees) const {
     uint64_t vertices = 0;
-    for (uint32_t s : needed_) vertices += table_.subtrees[s].vertices;
+    for (uint32_t s : subtrees) vertices += table_.subtrees[s].vertices;
     if (vertices == 0) return 0;
     const double part = static_cast<double>(vertices) / static_cast<double>(table_.vertices);
     const uint64_t in_all =
@@ -79,20 +91,59 @@ class Pipeline {
     return static_cast<uint64_t>(std::llround(part * static_cast<double>(in_all)));
   }
 
-  void DecodeSubtrees() {
-    progress_.StartStage("decode", VerticesNeeded(), "vertices");
+  /// Returns how many may be under way.
+  size_t StartStage(const char* name, const std::vector<uint32_t>& subtrees) {
+    progress_.StartStage(name, VerticesOf(subtrees), "vertices");
     const bool drawn = parameters_.has_rests() || parameters_.fits_lods();
-    size_t window = WindowOf(table_, needed_, drawn, memory_bytes_, runner_.threads());
-    std::vector<DecodedPart> parts(needed_.size());
+    return WindowOf(table_, subtrees, drawn, memory_bytes_, runner_.threads());
+  }
+
+  void DecodeWanted() {
+    const std::vector<uint32_t>& wanted = selection_.wanted;
+    const size_t window = StartStage("decode", wanted);
+    std::vector<DecodedPart> parts(wanted.size());
     runner_.Ordered(
-        needed_.size(), window, [&](size_t i) { parts[i] = DecodeSubtree(needed_[i]); },
+        wanted.size(), window, [&](size_t i) { parts[i] = DecodeSubtree(wanted[i]); },
         [&](size_t i) {
-          if (IsWanted(needed_[i])) {
-            sink_.AddSubtree({needed_[i], parts[i].positions, parts[i].exact, parts[i].faces,
-                              parts[i].border_vertices, parts[i].attributes});
-          }
+          sink_.AddSubtree({wanted[i], parts[i].positions, parts[i].exact, parts[i].faces,
+                            parts[i].border_vertices, parts[i].attributes});
           parts[i] = DecodedPart();
         });
+  }
+
+  /// Owners whose seams may have a face that the sink wants.
+  std::vector<uint32_t> NeededSeams() const {
+    std::vector<uint32_t> owners;
+    for (uint32_t s : selection_.wanted) {
+      const auto& lower = table_.subtrees[s].lower_neighbours;
+      if (sink_.WantsFacesAcross(s) && std::any_of(lower.begin(), lower.end(), [&](uint32_t other) {
+            return IsWanted(other) && sink_.WantsFacesAcross(other);
+          })) {
+        owners.push_back(s);
+      }
+    }
+    return owners;
+  }
+
+  /// Lower neighbours of these owners that are not decoded yet.
+  std::vector<uint32_t> OthersBeside(const std::vector<uint32_t>& owners) const {
+    std::vector<uint32_t> others;
+    for (uint32_t owner : owners) {
+      for (uint32_t s : table_.subtrees[owner].lower_neighbours) {
+        if (!IsWanted(s)) others.push_back(s);
+      }
+    }
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    return others;
+  }
+
+  /// For their borders alone.
+  void DecodeOthers(const std::vector<uint32_t>& others) {
+    if (others.empty()) return;
+    const size_t window = StartStage("neighbours", others);
+    runner_.Ordered(
+        others.size(), window, [&](size_t i) { DecodeSubtree(others[i]); }, [](size_t) {});
   }
 
   DecodedPart DecodeSubtree(uint32_t subtree) {
@@ -117,16 +168,18 @@ class Pipeline {
     return part;
   }
 
-  void DecodeSeams() {
-    std::vector<uint32_t> owners;
-    for (uint32_t s : selection_.wanted) {
-      if (!table_.subtrees[s].lower_neighbours.empty()) owners.push_back(s);
-    }
+  void DecodeSeams(const std::vector<uint32_t>& owners) {
     progress_.StartStage("seams", owners.size());
     std::vector<std::vector<SeamFace>> faces(owners.size());
+    parallel::MemoryBudget budget(memory_bytes_ / 2);
     runner_.Ordered(
         owners.size(), 4 * static_cast<size_t>(runner_.threads()),
-        [&](size_t i) { faces[i] = DecodeSeam(owners[i]); },
+        [&](size_t i) {
+          const std::vector<uint32_t> members = MembersOf(owners[i]);
+          const auto lease = budget.Acquire(kSeamBytesPerByte * BorderBytes(*spill_, members));
+          progress_.ThrowIfCancelled();
+          faces[i] = DecodeSeam(owners[i], members);
+        },
         [&](size_t i) {
           sink_.AddSeam(faces[i]);
           faces[i] = {};
@@ -134,9 +187,13 @@ class Pipeline {
         });
   }
 
-  std::vector<SeamFace> DecodeSeam(uint32_t owner) {
+  std::vector<uint32_t> MembersOf(uint32_t owner) const {
     std::vector<uint32_t> members = table_.subtrees[owner].lower_neighbours;
     members.push_back(owner);
+    return members;
+  }
+
+  std::vector<SeamFace> DecodeSeam(uint32_t owner, const std::vector<uint32_t>& members) {
     std::vector<BorderFile> borders;
     for (uint32_t member : members) borders.push_back(LoadBorder(*spill_, member));
     std::vector<SeamCoder::Participant> participants;
@@ -161,7 +218,6 @@ class Pipeline {
   Lattice lattice_;
   double error_bound_;  ///< of the layer that is decoded
   const DecodeSelection& selection_;
-  std::vector<uint32_t> needed_;
   std::vector<bool> has_border_;
   uint64_t memory_bytes_;
   parallel::Runner& runner_;
@@ -195,43 +251,32 @@ std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, c
   return found;
 }
 
-std::vector<uint32_t> NeededSubtrees(const io::FileTable& table,
-                                     const std::vector<uint32_t>& wanted) {
-  std::vector<uint32_t> needed = wanted;
-  for (uint32_t s : wanted) {
-    const auto& lower = table.subtrees[s].lower_neighbours;
-    needed.insert(needed.end(), lower.begin(), lower.end());
-  }
-  std::sort(needed.begin(), needed.end());
-  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-  return needed;
-}
-
-uint64_t BytesNeeded(const io::ContainerReader& container, const DecodeSelection& selection) {
+uint64_t BytesOf(const io::ContainerReader& container, size_t layers,
+                 const DecodedSegments& segments) {
   const io::FileTable& table = container.table();
   // All but the layers themselves: header, and the tables up to the last one.
-  uint64_t bytes =
-      selection.layers == 0 ? container.header_bytes() : container.LayerEnd(selection.layers - 1);
-  for (size_t layer = 0; layer < selection.layers; ++layer) {
+  uint64_t bytes = layers == 0 ? container.header_bytes() : container.LayerEnd(layers - 1);
+  for (size_t layer = 0; layer < layers; ++layer) {
     bytes -= container.LayerEnd(layer) - container.LayerBegin(layer);
   }
   auto add = [&](const std::vector<uint32_t>& subtrees, io::SegmentPart part) {
     for (uint32_t s : subtrees) {
-      for (size_t layer = 0; layer < selection.layers; ++layer) {
+      for (size_t layer = 0; layer < layers; ++layer) {
         bytes += table.segment_bytes[table.SegmentIndex(layer, s, part)];
       }
     }
   };
-  add(NeededSubtrees(table, selection.wanted), io::SegmentPart::kInner);
-  add(selection.wanted, io::SegmentPart::kSeam);
+  add(segments.subtrees, io::SegmentPart::kInner);
+  add(segments.seams, io::SegmentPart::kSeam);
   return bytes;
 }
 
-void DecodeInto(const io::ContainerReader& container, const CodecParameters& parameters,
-                const DecodeSelection& selection, uint64_t memory_bytes,
-                const std::string& temporary_folder, parallel::Runner& runner,
-                parallel::Progress& progress, MeshSink& sink) {
-  Pipeline(container, parameters, selection, memory_bytes, temporary_folder, runner, progress, sink)
+DecodedSegments DecodeInto(const io::ContainerReader& container, const CodecParameters& parameters,
+                           const DecodeSelection& selection, uint64_t memory_bytes,
+                           const std::string& temporary_folder, parallel::Runner& runner,
+                           parallel::Progress& progress, MeshSink& sink) {
+  return Pipeline(container, parameters, selection, memory_bytes, temporary_folder, runner,
+                  progress, sink)
       .Run();
 }
 

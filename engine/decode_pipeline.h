@@ -38,6 +38,8 @@ class MeshSink {
  public:
   virtual ~MeshSink() = default;
   virtual void AddSubtree(const SubtreePart& part) = 0;
+  /// After AddSubtree: could a face between this subtree and others be wanted.
+  virtual bool WantsFacesAcross(uint32_t /*subtree*/) const { return true; }
   virtual void AddSeam(std::span<const SeamFace> faces) = 0;
 };
 
@@ -52,21 +54,23 @@ std::vector<uint32_t> AllSubtrees(const io::FileTable& table);
 /// LOD of `layers` layers.
 std::vector<uint32_t> SubtreesInBox(const io::FileTable& table, size_t layers, const double* lo,
                                     const double* hi);
-/// Subtrees that must be decoded for the seams of the wanted ones: these and their lower
-/// neighbours.
-std::vector<uint32_t> NeededSubtrees(const io::FileTable& table,
-                                     const std::vector<uint32_t>& wanted);
-/// Bytes of the table and of the segments that the selection decodes. To check them whole groups
-/// are read, and their checksums, which do not count here.
-uint64_t BytesNeeded(const io::ContainerReader& container, const DecodeSelection& selection);
+/// What a decoding read.
+struct DecodedSegments {
+  std::vector<uint32_t> subtrees;  ///< wanted ones, and those that only seams needed
+  std::vector<uint32_t> seams;     ///< by owner
+};
+/// Bytes of the tables and of these segments in the first `layers` layers. To check them whole
+/// groups are read, and their checksums, which do not count here.
+uint64_t BytesOf(const io::ContainerReader& container, size_t layers,
+                 const DecodedSegments& segments);
 
 /// Peak memory follows `memory_bytes` and the largest subtree, not the mesh: border records wait in
-/// a spill folder below `temporary_folder`. Seams do not look at `memory_bytes`: each thread holds
-/// the border records of one subtree and its lower neighbours, and up to 4 seams a thread wait as
-/// faces.
-void DecodeInto(const io::ContainerReader& container, const CodecParameters& parameters,
-                const DecodeSelection& selection, uint64_t memory_bytes,
-                const std::string& temporary_folder, parallel::Runner& runner,
-                parallel::Progress& progress, MeshSink& sink);
+/// a spill folder below `temporary_folder`. A seam is decoded where it may give a wanted face:
+/// where the sink wants faces across of its owner and of a lower neighbour. It needs all lower
+/// neighbours.
+DecodedSegments DecodeInto(const io::ContainerReader& container, const CodecParameters& parameters,
+                           const DecodeSelection& selection, uint64_t memory_bytes,
+                           const std::string& temporary_folder, parallel::Runner& runner,
+                           parallel::Progress& progress, MeshSink& sink);
 
 }  // namespace folprom

@@ -151,7 +151,7 @@ uint64_t SubtreeBytes(const io::MeshSource& source, const EncodeOptions& options
 
 /// Of the partition: what its passes keep mapped and buffered.
 uint64_t PartitionBytes(const io::MeshSource& source, const EncodeOptions& options) {
-  const uint64_t memory = options.memory_bytes;
+  const uint64_t memory = options.limits.memory_bytes;
   const uint64_t mapped = std::min(memory / 8, 16 * source.vertex_count()) +
                           std::min(memory / 16, 16 * source.vertex_count()) +
                           std::min(memory / 16, 8 * source.vertex_count());
@@ -210,7 +210,7 @@ Result<EncodeEstimate> EstimateEncode(const std::string& input, const EncodeOpti
     constexpr uint64_t kProgramBytes = uint64_t{40} << 20;
     const uint64_t one = SubtreeBytes(*source, options);
     const uint64_t at_once = std::clamp<uint64_t>(
-        options.memory_bytes * 3 / 4 / one, 1,
+        options.limits.memory_bytes * 3 / 4 / one, 1,
         std::min(SubtreesOf(*source, options), static_cast<uint64_t>(runner.threads())));
     estimate.memory_bytes =
         kProgramBytes + std::max(at_once * one, PartitionBytes(*source, options));

@@ -7,15 +7,19 @@
 #include "engine/mesh/lattice.h"
 #include "io/container/reader.h"
 #include "io/files/mapped_file.h"
+#include "io/files/sparse_access.h"
 #include "io/limit_check.h"
 
 namespace folprom {
 
+/// Which part of the file will be read.
+enum class Extent { kAll, kPart };
+
 /// Throws Failure; messages of a damaged table name the file.
 class FolpFile {
  public:
-  explicit FolpFile(const std::string& path)
-      : file_(io::MappedFile::Open(path).value()),
+  explicit FolpFile(const std::string& path, Extent extent = Extent::kAll)
+      : file_(Map(path, extent)),
         container_(io::ContainerReader::Open(file_.bytes(), path).value()),
         parameters_(Parameters(path)) {}
 
@@ -33,6 +37,11 @@ class FolpFile {
   Lattice lattice() const { return LatticeOf(table(), parameters_); }
 
  private:
+  static io::MappedFile Map(const std::string& path, Extent extent) {
+    io::MappedFile file = io::MappedFile::Open(path).value();
+    if (extent == Extent::kPart) io::ExpectSparseAccess(file);
+    return file;
+  }
   CodecParameters Parameters(const std::string& path) const {
     try {
       return ParametersOf(table(), container_.layers_total());

@@ -55,7 +55,7 @@ void DescribeBits(const FolpFile& file, FileInfo* info) {
 
 Result<FileInfo> ReadInfo(const std::string& input) {
   return RunGuarded<FileInfo>([&] {
-    FolpFile file(input);
+    FolpFile file(input, Extent::kPart);
     const io::FileTable& table = file.table();
     FileInfo info;
     info.format_version = io::kFormatVersion;

@@ -107,6 +107,13 @@ void RegionSink::AddSubtree(const SubtreePart& part) {
   for (const Face& f : part.faces) Keep({index_[f[0]], index_[f[1]], index_[f[2]]});
 }
 
+bool RegionSink::WantsFacesAcross(uint32_t subtree) const {
+  if (subtree >= border_.size()) return false;
+  const auto& border = border_[subtree];
+  return std::any_of(border.begin(), border.end(),
+                     [](uint64_t vertex) { return vertex != kOutside; });
+}
+
 void RegionSink::AddSeam(std::span<const SeamFace> faces) {
   for (const SeamFace& f : faces) {
     Keep({border_[f[0].subtree][f[0].border], border_[f[1].subtree][f[1].border],

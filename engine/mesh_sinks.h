@@ -52,6 +52,8 @@ class RegionSink final : public MeshSink {
   RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,
              size_t attribute_bytes, const io::SpillDirectory& spill);
   void AddSubtree(const SubtreePart& part) override;
+  /// Only where a vertex of its border is inside.
+  bool WantsFacesAcross(uint32_t subtree) const override;
   void AddSeam(std::span<const SeamFace> faces) override;
   uint64_t vertices() const { return vertices_; }
   uint64_t faces() const { return faces_; }

@@ -17,10 +17,7 @@ if [ $# -eq 0 ]; then
     "$scans/dragon_vrip.ply"
 fi
 
-seconds() {  # seconds COMMAND...: of processor, user and system
-  sh -c '"$@" >/dev/null; times' sh "$@" | tail -n 1 | tr 'ms' '  ' |
-    awk '{ print 60 * $1 + $2 + 60 * $3 + $4 }'
-}
+needs "$@"
 
 for scan; do
   name=$(basename "$scan" .ply)
@@ -28,9 +25,11 @@ for scan; do
   while [ "$run" -lt "$runs" ]; do
     for effort in $efforts; do
       folp=$scratch/$effort.folp at=$scratch/$name.$effort
-      seconds "$program" encode "$scan" -o "$folp" --effort "$effort" -T 1 -f -q >>"$at.encode"
-      seconds "$program" decode "$folp" -o "$scratch/out.ply" -T 1 -f -q >>"$at.decode"
-      "$program" info "$folp" --json | sed -n '1,/bits_per_vertex/p' | field bits_per_vertex >"$at.bpv"
+      processor_seconds "$program" encode "$scan" -o "$folp" --effort "$effort" -T 1 -f -q \
+        >>"$at.encode"
+      processor_seconds "$program" decode "$folp" -o "$scratch/out.ply" -T 1 -f -q >>"$at.decode"
+      run "$program" info "$folp" --json
+      sed -n '1,/bits_per_vertex/p' "$scratch/output" | field bits_per_vertex >"$at.bpv"
     done
     run=$((run + 1))
   done

@@ -10,10 +10,10 @@ status=0
 row() {  # row VERTICES LIMIT_MIB VERB ARGUMENT...
   vertices=$1 limit=$2 verb=$3
   shift 3
-  "$program" "$verb" "$@" -M "${limit}MiB" --tmp "$scratch" --json -q >"$scratch/report"
+  run "$program" "$verb" "$@" -M "${limit}MiB" --tmp "$scratch" --json -q
   awk -v vertices="$vertices" -v limit="$limit" -v verb="$verb" \
-    -v peak="$(field peak_rss_bytes <"$scratch/report")" \
-    -v seconds="$(field seconds <"$scratch/report")" 'BEGIN {
+    -v peak="$(field peak_rss_bytes <"$scratch/output")" \
+    -v seconds="$(field seconds <"$scratch/output")" 'BEGIN {
       peak /= 1048576
       verdict = peak < limit ? "kept" : "EXCEEDED"
       printf "%-9s %-7s %8.1fs %7d MiB %7d MiB  %s\n", vertices, verb, seconds, peak, limit, verdict
@@ -25,7 +25,7 @@ printf '%-9s %-7s %9s %11s %11s\n' vertices verb time peak limit
 for job in 2500k:512 10M:2048; do
   vertices=${job%:*} limit=${job#*:}
   scan=$scratch/scan.ply folp=$scratch/scan.folp
-  "$program" synth --vertices "$vertices" -o "$scan" -f -q
+  run "$program" synth --vertices "$vertices" -o "$scan" -f -q
   row "$vertices" "$limit" encode "$scan" -o "$folp" -f
   row "$vertices" "$limit" decode "$folp" -o "$scratch/out.ply" -f
   rm "$scratch/out.ply"

@@ -13,23 +13,22 @@ if [ -z "$scan" ]; then
   scan=${FOLPROM_SHARED:-$here/../../../shared}/data/scans/dragon_vrip.ply
   if [ ! -r "$scan" ]; then
     scan=$scratch/synth.ply
-    "$program" synth --vertices 2M -o "$scan" -q
+    run "$program" synth --vertices 2M -o "$scan" -q
   fi
 fi
 
-seconds() {  # seconds VERB INPUT OUTPUT THREADS
-  "$program" "$1" "$2" -o "$3" -T "$4" -f --json -q | field seconds
-}
+needs "$scan"
 
 # One run beforehand brings the scan into the page cache.
-"$program" encode "$scan" -o "$scratch/scan.folp" -q
+run "$program" encode "$scan" -o "$scratch/scan.folp" -q
 for verb in encode decode; do
   input=$scan output=$scratch/out.folp
   [ "$verb" = encode ] || input=$scratch/scan.folp output=$scratch/out.ply
   i=0
   while [ "$i" -lt "$runs" ]; do
     for threads in 1 2; do
-      seconds "$verb" "$input" "$output" "$threads" >>"$scratch/$verb.$threads"
+      wall_seconds "$program" "$verb" "$input" -o "$output" -T "$threads" -f -q \
+        >>"$scratch/$verb.$threads"
     done
     i=$((i + 1))
   done

@@ -131,6 +131,29 @@ TEST_F(Resumed, ExactCoordinatesGoOnToo) {
   EXPECT_GT(report_.resumed_subtrees, 0U);
 }
 
+TEST_F(Resumed, AttributesGoOnToo) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3600\nproperty float x\nproperty float y\nproperty "
+      "float z\nproperty uchar red\nproperty short weight\nelement face 3481\nproperty list uchar "
+      "int vertex_indices\nend_header\n";
+  for (int v = 0; v < 3600; ++v) {
+    text += std::to_string(v % 60) + " " + std::to_string(v / 60) + " " +
+            std::to_string(v * v % 7) + " " + std::to_string(v % 256) + " " +
+            std::to_string(v * 31 % 999 - 500) + "\n";
+  }
+  for (int v = 0; v < 3540; ++v) {
+    if (v % 60 == 59) continue;
+    text += "3 " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + 60) +
+            "\n";
+  }
+  WriteFile(folder_.File("scan.ply"), text);
+  whole_ = EncodedBytes(Resume::kNever);
+  ASSERT_EQ(report_.attributes.size(), 2U);
+  Interrupt("encode", 1500);
+  EXPECT_EQ(EncodedBytes(Resume::kContinue), whole_);
+  EXPECT_GT(report_.resumed_subtrees, 0U);
+}
+
 TEST_F(Resumed, OtherThreadsAndMemoryGoOnToo) {
   Interrupt("encode", 1500);
   options_.memory_bytes = uint64_t{256} << 20;

@@ -156,7 +156,7 @@ TEST_F(Resumed, AttributesGoOnToo) {
 
 TEST_F(Resumed, OtherThreadsAndMemoryGoOnToo) {
   Interrupt("encode", 1500);
-  options_.memory_bytes = uint64_t{256} << 20;
+  options_.limits.memory_bytes = uint64_t{256} << 20;
   EXPECT_EQ(EncodedBytes(Resume::kContinue), whole_);
   EXPECT_GT(report_.resumed_subtrees, 0U);
 }

@@ -17,6 +17,8 @@ class CountedWriter : public MeshWriter {
   Result<void> AppendVertices(std::span<const double> xyz,
                               std::span<const uint8_t> attributes) final;
   Result<void> AppendFaces(std::span<const Triangle> faces) final;
+  Result<void> AppendPolygons(std::span<const Triangle> triangles,
+                              std::span<const uint8_t> joins) final;
   Result<void> Commit() final;
   /// Names the attributes, and counts the remarks, of a format that holds none.
   std::vector<std::string> Warnings() const override;
@@ -27,6 +29,9 @@ class CountedWriter : public MeshWriter {
   /// attributes: nothing but where HoldsAttributes.
   virtual void WriteVertices(std::span<const double> xyz, std::span<const uint8_t> attributes) = 0;
   virtual void WriteFaces(std::span<const Triangle> faces) = 0;
+  virtual void WritePolygon(std::span<const uint64_t> corners) = 0;
+  /// False: polygons are written as triangles.
+  virtual bool HoldsPolygons() const { return true; }
   /// Attributes of vertices, and remarks.
   virtual bool HoldsAttributes() const { return false; }
   /// Completes the file but for the commit.
@@ -37,6 +42,8 @@ class CountedWriter : public MeshWriter {
   AtomicFile& file() { return *file_; }
 
  private:
+  void CheckIndices(std::span<const Triangle> faces) const;
+  void EndPolygon();
   [[noreturn]] void ThrowInternal(const char* reason) const;
 
   std::string path_;
@@ -45,6 +52,7 @@ class CountedWriter : public MeshWriter {
   uint64_t faces_left_;
   size_t stride_;  ///< bytes of the attributes of a vertex
   std::unique_ptr<AtomicFile> file_;
+  std::vector<uint64_t> corners_;  ///< of the polygon that may go on
 };
 
 /// All throw Failure.

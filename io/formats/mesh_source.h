@@ -83,7 +83,17 @@ class MeshSource {
   /// Replaces *triangles by the block's triangles (at most about 65,536, more only for one huge
   /// polygon). kInput, with the face's index, where an index is negative or not below
   /// vertex_count().
-  virtual Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const = 0;
+  Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const {
+    return ReadFaces(block, triangles, nullptr);
+  }
+  /// The same, and for each triangle 1 where it goes on with the polygon of the triangle before it,
+  /// maybe of the block before; 0 where a face begins. The corners of a polygon are those of its
+  /// first triangle and the last one of each further triangle.
+  Result<void> ReadPolygonBlock(size_t block, std::vector<Triangle>* triangles,
+                                std::vector<uint8_t>* joins) const {
+    joins->clear();
+    return ReadFaces(block, triangles, joins);
+  }
 
   virtual const SourceNotes& notes() const = 0;
 
@@ -94,6 +104,11 @@ class MeshSource {
   /// Tells the kernel that the resident pages of the mapping may go (they stay in its cache). The
   /// resident size of a pass over the file is then bounded by what lies between two calls.
   virtual void DropResident() const = 0;
+
+ protected:
+  /// Both reads; *joins is empty, or there is none.
+  virtual Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,
+                                 std::vector<uint8_t>* joins) const = 0;
 };
 
 }  // namespace folprom::io

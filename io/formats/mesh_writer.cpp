@@ -1,5 +1,7 @@
 #include "io/formats/mesh_writer.h"
 
+#include <algorithm>
+
 #include "io/formats/counted_writer.h"
 #include "io/result_of.h"
 
@@ -54,13 +56,45 @@ Result<void> CountedWriter::AppendFaces(std::span<const Triangle> faces) {
   return ResultOf([&] {
     if (faces.size() > faces_left_) ThrowInternal("more faces are written than were announced");
     faces_left_ -= faces.size();
-    for (const Triangle& face : faces) {
-      for (const uint64_t index : face) {
-        if (index >= shape_.vertices) ThrowInternal("a face has an index beyond the vertices");
-      }
-    }
+    CheckIndices(faces);
     WriteFaces(faces);
   });
+}
+
+Result<void> CountedWriter::AppendPolygons(std::span<const Triangle> triangles,
+                                           std::span<const uint8_t> joins) {
+  return ResultOf([&] {
+    CheckIndices(triangles);
+    const auto begun = static_cast<uint64_t>(std::ranges::count(joins, 0));
+    if (begun > faces_left_) ThrowInternal("more faces are written than were announced");
+    faces_left_ -= begun;
+    if (!HoldsPolygons()) {
+      WriteFaces(triangles);
+      return;
+    }
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      if (joins[i] == 0) {
+        EndPolygon();
+        corners_.assign(triangles[i].begin(), triangles[i].end());
+      } else {
+        corners_.push_back(triangles[i][2]);
+      }
+    }
+  });
+}
+
+void CountedWriter::EndPolygon() {
+  if (corners_.size() > shape_.largest_face) ThrowInternal("a face has too many corners");
+  if (!corners_.empty()) WritePolygon(corners_);
+  corners_.clear();
+}
+
+void CountedWriter::CheckIndices(std::span<const Triangle> faces) const {
+  for (const Triangle& face : faces) {
+    for (const uint64_t index : face) {
+      if (index >= shape_.vertices) ThrowInternal("a face has an index beyond the vertices");
+    }
+  }
 }
 
 Result<void> CountedWriter::Commit() {
@@ -68,6 +102,7 @@ Result<void> CountedWriter::Commit() {
     if (vertices_left_ != 0 || faces_left_ != 0) {
       ThrowInternal("fewer vertices or faces are written than were announced");
     }
+    EndPolygon();
     Finish();
     file_->Commit().value();
   });

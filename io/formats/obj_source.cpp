@@ -60,7 +60,9 @@ class ObjSource final : public IndexedSource {
     });
   }
 
-  Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const override {
+ private:
+  Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,
+                         std::vector<uint8_t>* joins) const override {
     return ResultOf([&] {
       const ObjFaceBlock& where = faces_[block];
       ObjReader reader(file(), where.position);
@@ -72,20 +74,20 @@ class ObjSource final : public IndexedSource {
           ++vertices_before;
           reader.cursor().SkipLine();
         } else {
-          ReadFace(reader.cursor(), vertices_before, *triangles);
+          ReadFace(reader.cursor(), vertices_before, *triangles, joins);
         }
       }
     });
   }
 
- private:
-  void ReadFace(TextCursor& cursor, uint64_t vertices_before, std::vector<Triangle>& out) const {
+  void ReadFace(TextCursor& cursor, uint64_t vertices_before, std::vector<Triangle>& out,
+                std::vector<uint8_t>* joins) const {
     std::array<std::string_view, 3> words;
     for (std::string_view& word : words) {
       word = cursor.Word();
       if (word.empty()) return;  // dropped, as the walk noted
     }
-    PolygonFan fan(out);
+    PolygonFan fan(out, joins);
     for (std::string_view word : words) fan.AddCorner(CornerVertex(cursor, word, vertices_before));
     for (std::string_view word; !(word = cursor.Word()).empty();) {
       fan.AddCorner(CornerVertex(cursor, word, vertices_before));

@@ -157,17 +157,19 @@ class BinaryOffSource final : public IndexedSource {
     return {};
   }
 
-  Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const override {
+ private:
+  Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,
+                         std::vector<uint8_t>* joins) const override {
     return ResultOf([&] {
       const uint8_t* at = file().bytes().data() + faces_[block].offset;
       triangles->clear();
       triangles->reserve(faces_[block].triangles);
-      while (triangles->size() < faces_[block].triangles) at = ReadFace(at, *triangles);
+      while (triangles->size() < faces_[block].triangles) at = ReadFace(at, *triangles, joins);
     });
   }
 
- private:
-  const uint8_t* ReadFace(const uint8_t* face, std::vector<Triangle>& out) const {
+  const uint8_t* ReadFace(const uint8_t* face, std::vector<Triangle>& out,
+                          std::vector<uint8_t>* joins) const {
     const uint8_t* at = face;
     const uint8_t* const end = file().bytes().data() + file().bytes().size();
     // The walk saw that all is there, unless the file has changed since.
@@ -180,7 +182,7 @@ class BinaryOffSource final : public IndexedSource {
     check(1);
     const uint64_t corners = next();
     check(corners);
-    PolygonFan fan(out);
+    PolygonFan fan(out, joins);
     if (corners < 3) at += corners * kWord;  // dropped, as the walk noted
     for (uint64_t i = 0; corners >= 3 && i < corners; ++i) {
       const uint32_t vertex = next();

@@ -148,24 +148,25 @@ class TextOffSource final : public IndexedSource {
     });
   }
 
-  Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const override {
+ private:
+  Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,
+                         std::vector<uint8_t>* joins) const override {
     return ResultOf([&] {
       TextCursor cursor(file(), faces_[block].position);
       triangles->clear();
       triangles->reserve(faces_[block].triangles);
       while (triangles->size() < faces_[block].triangles) {
         cursor.NextWordLine();
-        ReadFace(cursor, *triangles);
+        ReadFace(cursor, *triangles, joins);
         cursor.SkipSingleLine();
       }
     });
   }
 
- private:
-  void ReadFace(TextCursor& cursor, std::vector<Triangle>& out) const {
+  void ReadFace(TextCursor& cursor, std::vector<Triangle>& out, std::vector<uint8_t>* joins) const {
     const int64_t corners = cursor.Integer("the number of corners");
     if (corners < 3) return;  // dropped, as the walk noted
-    PolygonFan fan(out);
+    PolygonFan fan(out, joins);
     for (int64_t i = 0; i < corners; ++i) {
       const int64_t vertex = cursor.Integer("the last corner");
       // A negative index is a huge one.

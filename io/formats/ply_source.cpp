@@ -96,13 +96,14 @@ template <class Cursor>
 class TriangleReader {
  public:
   TriangleReader(Cursor& cursor, const PlyElementPlan& plan, const PlyTriangleBlock& block,
-                 uint64_t vertex_count, std::vector<Triangle>* out)
+                 uint64_t vertex_count, std::vector<Triangle>* out, std::vector<uint8_t>* joins)
       : cursor_(cursor),
         plan_(plan),
         block_(block),
         triangulator_(plan, vertex_count),
         list_(plan.element->properties[plan.index_list]),
-        out_(*out) {}
+        out_(*out),
+        joins_(joins) {}
 
   void Read() {
     out_.clear();
@@ -143,6 +144,7 @@ class TriangleReader {
         const PlyPlace& place = cursor_.place();
         out_.push_back({triangulator_.Vertex(a, place), triangulator_.Vertex(b, place),
                         triangulator_.Vertex(c, place)});
+        AddJoin(false);
       });
     } else if (count < 3) {
       cursor_.SkipItems(list_.type, count);
@@ -155,8 +157,14 @@ class TriangleReader {
     Triangle triangle;
     for (; count > 0 && !Done(); --count) {
       const int64_t index = cursor_.Integer(list_.type);
-      if (triangulator_.Push(index, cursor_.place(), state, triangle)) out_.push_back(triangle);
+      if (!triangulator_.Push(index, cursor_.place(), state, triangle)) continue;
+      out_.push_back(triangle);
+      AddJoin(plan_.role == PlyRole::kFaces && state.seen > 3);
     }
+  }
+
+  void AddJoin(bool is_joined) {
+    if (joins_ != nullptr) joins_->push_back(is_joined ? 1 : 0);
   }
 
   Cursor& cursor_;
@@ -165,6 +173,7 @@ class TriangleReader {
   const PlyTriangulator triangulator_;
   const PlyProperty& list_;
   std::vector<Triangle>& out_;
+  std::vector<uint8_t>* joins_;  ///< may be null
 };
 
 class PlySource final : public MeshSource {
@@ -227,15 +236,16 @@ class PlySource final : public MeshSource {
 
   size_t triangle_block_count() const override { return blocks_.triangles.size(); }
 
-  Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const override {
+ private:
+  Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,
+                         std::vector<uint8_t>* joins) const override {
     const PlyTriangleBlock& where = blocks_.triangles[block];
     const PlyElementPlan& plan = layout_.elements[where.plan];
     return WithCursor(plan, where.position, [&]<class Cursor>(Cursor& cursor) {
-      TriangleReader<Cursor>(cursor, plan, where, layout_.vertex_count, triangles).Read();
+      TriangleReader<Cursor>(cursor, plan, where, layout_.vertex_count, triangles, joins).Read();
     });
   }
 
- private:
   template <class Work>
   Result<void> WithCursor(const PlyElementPlan& plan, FilePosition position, Work work) const {
     return ResultOf([&] {

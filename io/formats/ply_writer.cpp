@@ -23,6 +23,11 @@ std::string PropertyLine(const VertexAttribute& attribute) {
          attribute.name + "\n";
 }
 
+/// Does the number of corners need more than a byte.
+bool HasLongFaces(const MeshShape& shape) {
+  return shape.largest_face > std::numeric_limits<uint8_t>::max();
+}
+
 std::string Header(const MeshShape& shape) {
   const std::string type = shape.coordinate_type == ScalarType::kFloat64 ? "double" : "float";
   const bool needs_uint = shape.vertices > uint64_t{std::numeric_limits<int32_t>::max()};
@@ -36,8 +41,9 @@ std::string Header(const MeshShape& shape) {
     }
     if (i < attributes.size()) header += PropertyLine(attributes[i]);
   }
-  return header + "element face " + std::to_string(shape.faces) + "\nproperty list uchar " +
-         (needs_uint ? "uint" : "int") + " vertex_indices\nend_header\n";
+  return header + "element face " + std::to_string(shape.faces) + "\nproperty list " +
+         (HasLongFaces(shape) ? "uint " : "uchar ") + (needs_uint ? "uint" : "int") +
+         " vertex_indices\nend_header\n";
 }
 
 /// Bytes of the attributes before the position.
@@ -91,6 +97,18 @@ class PlyWriter final : public CountedWriter {
       uint8_t* to = faces_.Extend(kFaceBytes);
       *to++ = 3;
       for (const uint64_t index : face) to = StoreLittleEndian(static_cast<uint32_t>(index), to);
+    }
+  }
+
+  void WritePolygon(std::span<const uint64_t> corners) override {
+    const auto count = static_cast<uint32_t>(corners.size());
+    if (HasLongFaces(shape())) {
+      StoreLittleEndian(count, faces_.Extend(sizeof count));
+    } else {
+      *faces_.Extend(1) = static_cast<uint8_t>(count);
+    }
+    for (const uint64_t index : corners) {
+      StoreLittleEndian(static_cast<uint32_t>(index), faces_.Extend(sizeof(uint32_t)));
     }
   }
 

@@ -11,16 +11,22 @@ namespace folprom::io {
 /// The triangles of one polygon, from its first corner on.
 class PolygonFan {
  public:
-  explicit PolygonFan(std::vector<Triangle>& out) : out_(out) {}
+  /// joins: as of MeshSource::ReadPolygonBlock; may be null.
+  explicit PolygonFan(std::vector<Triangle>& out, std::vector<uint8_t>* joins = nullptr)
+      : out_(out), joins_(joins) {}
   void AddCorner(uint64_t vertex) {
     if (corners_ == 0) first_ = vertex;
-    if (corners_ >= 2) out_.push_back({first_, last_, vertex});
+    if (corners_ >= 2) {
+      out_.push_back({first_, last_, vertex});
+      if (joins_ != nullptr) joins_->push_back(corners_ > 2 ? 1 : 0);
+    }
     last_ = vertex;
     ++corners_;
   }
 
  private:
   std::vector<Triangle>& out_;
+  std::vector<uint8_t>* joins_;
   uint64_t first_ = 0, last_ = 0, corners_ = 0;
 };
 

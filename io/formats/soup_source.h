@@ -9,17 +9,6 @@ namespace folprom::io {
 
 /// Triangle i is of the vertices 3i, 3i + 1 and 3i + 2; blocks hold whole facets.
 class SoupSource : public IndexedSource {
- public:
-  Result<void> ReadTriangleBlock(size_t block, std::vector<Triangle>* triangles) const override {
-    const uint64_t begin = vertex_block_begin(block);
-    triangles->resize(VerticesIn(block) / 3);
-    for (uint64_t i = 0; i < triangles->size(); ++i) {
-      const uint64_t first = begin + 3 * i;
-      (*triangles)[i] = {first, first + 1, first + 2};
-    }
-    return {};
-  }
-
  protected:
   using IndexedSource::IndexedSource;
 
@@ -31,6 +20,19 @@ class SoupSource : public IndexedSource {
     index_.vertices = 3 * facets;
     index_.block_vertices = 3 * kBlockFacets;
     index_.triangle_blocks = vertex_block_count();
+  }
+
+ private:
+  Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,
+                         std::vector<uint8_t>* joins) const override {
+    const uint64_t begin = vertex_block_begin(block);
+    triangles->resize(VerticesIn(block) / 3);
+    for (uint64_t i = 0; i < triangles->size(); ++i) {
+      const uint64_t first = begin + 3 * i;
+      (*triangles)[i] = {first, first + 1, first + 2};
+    }
+    if (joins != nullptr) joins->assign(triangles->size(), 0);
+    return {};
   }
 };
 

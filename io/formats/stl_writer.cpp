@@ -1,5 +1,6 @@
 // Binary STL. Facets hold their corners' positions, which may come after the faces: both wait in
 // scratch files until all are there.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -89,10 +90,14 @@ class StlWriter final : public CountedWriter {
 
   std::vector<std::string> Warnings() const override {
     std::vector<std::string> warnings = CountedWriter::Warnings();
-    if (!is_soup_ || shape().vertices != 3 * shape().faces) {
+    if (!is_soup_ || shape().vertices != 3 * FacetCount()) {
       warnings.push_back(
           "STL holds facets alone: which of them share a vertex is lost, and with it every vertex "
           "of no face");
+    }
+    if (FacetCount() > shape().faces) {
+      warnings.push_back("STL holds triangles alone: " + std::to_string(shape().faces) +
+                         " faces are cut into " + std::to_string(FacetCount()));
     }
     if (rounded_ > 0 && shape().coordinate_type == ScalarType::kFloat64) {
       warnings.push_back("STL holds float32: " + std::to_string(rounded_) +
@@ -121,6 +126,11 @@ class StlWriter final : public CountedWriter {
     }
   }
 
+  bool HoldsPolygons() const override { return false; }
+  void WritePolygon(std::span<const uint64_t>) override {}
+
+  uint64_t FacetCount() const { return shape().triangles > 0 ? shape().triangles : shape().faces; }
+
   static void AddValue(uint32_t value, OutputBuffer& buffer) {
     std::memcpy(buffer.Extend(sizeof value), &value, sizeof value);
   }
@@ -132,12 +142,12 @@ class StlWriter final : public CountedWriter {
     out.Add(kTitle);
     std::fill_n(out.Extend(kHeaderBytes - sizeof(uint32_t) - sizeof kTitle + 1),
                 kHeaderBytes - sizeof(uint32_t) - sizeof kTitle + 1, uint8_t{0});
-    StoreLittleEndian(static_cast<uint32_t>(shape().faces), out.Extend(sizeof(uint32_t)));
+    StoreLittleEndian(static_cast<uint32_t>(FacetCount()), out.Extend(sizeof(uint32_t)));
 
     PositionMap positions(position_file_);
     const MappedFile faces = face_file_.Map();
     const auto* corners = reinterpret_cast<const Corners*>(faces.bytes().data());
-    for (uint64_t f = 0; f < shape().faces; ++f) {
+    for (uint64_t f = 0; f < FacetCount(); ++f) {
       const auto& [a, b, c] = corners[f];
       WriteFacet(positions.At(a), positions.At(b), positions.At(c), out.Extend(kFacetBytes));
       if (f % kFacetsBetweenDrops == kFacetsBetweenDrops - 1) faces.DropResident();
@@ -165,7 +175,7 @@ class StlWriter final : public CountedWriter {
 std::unique_ptr<MeshWriter> MakeStlWriter(const std::string& path, const MeshShape& shape,
                                           bool force) {
   constexpr uint64_t kMost = std::numeric_limits<uint32_t>::max();
-  if (shape.vertices > kMost || shape.faces > kMost) {
+  if (shape.vertices > kMost || std::max(shape.faces, shape.triangles) > kMost) {
     throw Failure(ErrorKind::kLimit, path + ": " + std::to_string(shape.vertices) +
                                          " vertices and " + std::to_string(shape.faces) +
                                          " faces are more than an STL file can count (2^32-1)");

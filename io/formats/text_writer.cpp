@@ -18,7 +18,8 @@ struct TextForm {
   const char* name;
   std::string header;
   std::string_view vertex;  ///< what stands before the coordinates
-  std::string_view face;    ///< what stands before the indices
+  std::string_view face;    ///< what stands before a face
+  bool counts_corners;      ///< their number stands before the indices
   uint64_t first_index;
 };
 
@@ -55,16 +56,21 @@ class TextWriter final : public CountedWriter {
   }
 
   void WriteFaces(std::span<const Triangle> faces) override {
-    for (const Triangle& face : faces) {
-      faces_.Add(form_.face);
-      for (const uint64_t index : face) {
-        char text[24];
-        text[0] = ' ';
-        const auto end = std::to_chars(text + 1, text + sizeof text, index + form_.first_index);
-        faces_.Add({text, static_cast<size_t>(end.ptr - text)});
-      }
-      faces_.Add("\n");
-    }
+    for (const Triangle& face : faces) WritePolygon(face);
+  }
+
+  void WritePolygon(std::span<const uint64_t> corners) override {
+    faces_.Add(form_.face);
+    if (form_.counts_corners) AddNumber("", corners.size());
+    for (const uint64_t index : corners) AddNumber(" ", index + form_.first_index);
+    faces_.Add("\n");
+  }
+
+  void AddNumber(std::string_view before, uint64_t number) {
+    char text[24];
+    const auto end = std::to_chars(text, text + sizeof text, number);
+    faces_.Add(before);
+    faces_.Add({text, static_cast<size_t>(end.ptr - text)});
   }
 
   void Finish() override {
@@ -86,14 +92,15 @@ std::unique_ptr<MeshWriter> MakeObjWriter(const std::string& path, const MeshSha
   // A file of no byte at all would be taken for a fault.
   const std::string header = "# " + std::to_string(shape.vertices) + " vertices, " +
                              std::to_string(shape.faces) + " faces\n";
-  return std::make_unique<TextWriter>(path, shape, force, TextForm{"OBJ", header, "v ", "f", 1});
+  return std::make_unique<TextWriter>(path, shape, force,
+                                      TextForm{"OBJ", header, "v ", "f", false, 1});
 }
 
 std::unique_ptr<MeshWriter> MakeOffWriter(const std::string& path, const MeshShape& shape,
                                           bool force) {
   const std::string header =
       "OFF\n" + std::to_string(shape.vertices) + " " + std::to_string(shape.faces) + " 0\n";
-  return std::make_unique<TextWriter>(path, shape, force, TextForm{"OFF", header, "", "3", 0});
+  return std::make_unique<TextWriter>(path, shape, force, TextForm{"OFF", header, "", "", true, 0});
 }
 
 }  // namespace folprom::io

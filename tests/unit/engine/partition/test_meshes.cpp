@@ -189,11 +189,12 @@ size_t TestSource::triangle_block_count() const {
   return Blocks(mesh_.triangles.size(), block_size_);
 }
 
-Result<void> TestSource::ReadTriangleBlock(size_t block,
-                                           std::vector<io::Triangle>* triangles) const {
+Result<void> TestSource::ReadFaces(size_t block, std::vector<io::Triangle>* triangles,
+                                   std::vector<uint8_t>* joins) const {
   triangles->clear();
   const size_t end = std::min((block + 1) * block_size_, mesh_.triangles.size());
   for (size_t i = block * block_size_; i < end; ++i) triangles->push_back(mesh_.triangles[i]);
+  if (joins != nullptr) joins->assign(triangles->size(), 0);
   return {};
 }
 

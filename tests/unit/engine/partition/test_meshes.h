@@ -60,11 +60,13 @@ class TestSource final : public io::MeshSource {
   uint64_t vertex_block_begin(size_t block) const override;
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override;
   size_t triangle_block_count() const override;
-  Result<void> ReadTriangleBlock(size_t block, std::vector<io::Triangle>* triangles) const override;
   const io::SourceNotes& notes() const override { return notes_; }
   void DropResident() const override {}
 
  private:
+  Result<void> ReadFaces(size_t block, std::vector<io::Triangle>* triangles,
+                         std::vector<uint8_t>* joins) const override;
+
   const TestMesh mesh_;
   const size_t block_size_;
   const std::string path_ = "memory.ply";

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,19 @@ struct SubtreeRecord {
 /// A segment is named by (layer, subtree, part).
 enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
 
+/// What may follow the last layer, in this order: what the scan's file has beyond its triangles.
+enum class SectionKind : uint8_t {
+  kOrder = 0,  ///< of vertices and faces, and the corner that each face begins with
+  kPolygons    ///< which triangles are one face
+};
+inline constexpr size_t kSectionKinds = 2;
+
+struct SectionRecord {
+  uint64_t bytes = 0;   ///< with the lengths and checksums of its blocks
+  uint64_t digest = 0;  ///< of what it gives
+  bool operator==(const SectionRecord&) const = default;
+};
+
 /// Everything in the tables of a file; of a cut one, in those that are there. Coded compactly; see
 /// FORMAT.md.
 struct FileTable {
@@ -79,6 +93,10 @@ struct FileTable {
   MeshDigest digest;
   std::array<uint64_t, kBitKinds> kind_bits{};  ///< bits spent per kind, whole file, rounded
   std::vector<uint64_t> attribute_bits;         ///< the same, per attribute
+  /// Those that the file has are in its first table, and what they say in the last.
+  std::array<std::optional<SectionRecord>, kSectionKinds> sections;
+  uint64_t polygons = 0;      ///< faces of the scan, where there are sections; else 0
+  uint64_t largest_face = 0;  ///< corners, where there are sections; else 0
   std::vector<LayerRecord> layers;
   std::vector<SubtreeRecord> subtrees;
   /// Size in bytes of each segment, index SegmentIndex(layer, subtree, part).
@@ -92,6 +110,13 @@ struct FileTable {
     return std::any_of(subtrees.begin(), subtrees.end(), [](const SubtreeRecord& subtree) {
       return !subtree.lower_neighbours.empty();
     });
+  }
+  const std::optional<SectionRecord>& Section(SectionKind kind) const {
+    return sections[static_cast<size_t>(kind)];
+  }
+  bool HasSections() const {
+    return std::any_of(sections.begin(), sections.end(),
+                       [](const auto& section) { return section.has_value(); });
   }
   /// Has it anything that a scan of bare positions and faces has not.
   bool HasExtras() const { return !schema.attributes.empty() || !remarks.empty(); }

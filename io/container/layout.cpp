@@ -7,6 +7,13 @@ void FileLayout::AddTable(uint64_t bytes) {
   table_bytes_ += bytes + kGroupChecksumBytes;
 }
 
+void FileLayout::AddSections(const FileTable& table) {
+  for (size_t i = 0; i < kSectionKinds; ++i) {
+    section_begin_[i] = end_;
+    if (table.sections[i]) end_ += table.sections[i]->bytes;
+  }
+}
+
 void FileLayout::CloseGroup(uint64_t begin) {
   groups_.push_back({begin, end_});
   end_ += kGroupChecksumBytes;

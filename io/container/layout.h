@@ -1,6 +1,7 @@
 // Where every segment and every checksum stands, from the sizes alone: the same on both sides.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,6 +34,11 @@ class FileLayout {
   /// overflows.
   void AddLayers(const FileTable& table, size_t end);
 
+  /// Behind the last layer.
+  void AddSections(const FileTable& table);
+
+  /// Of each section, the first byte; of one that the file has not, where it would begin.
+  const std::array<uint64_t, kSectionKinds>& section_begin() const { return section_begin_; }
   /// Index FileTable::SegmentIndex.
   const std::vector<uint64_t>& segment_begin() const { return segment_begin_; }
   /// In the order of the file.
@@ -52,6 +58,7 @@ class FileLayout {
   std::vector<uint64_t> segment_begin_;
   std::vector<ChecksumGroup> groups_;
   std::vector<uint64_t> layer_begin_, layer_end_;
+  std::array<uint64_t, kSectionKinds> section_begin_{};
   uint64_t end_, table_bytes_;
 };
 

@@ -61,6 +61,19 @@ void ContainerReader::LoadTables() {
   }
   layers_total_ = decoder.layers_total();
   table_ = std::move(decoder).TakeTable();
+  if (has_all_tables()) layout_.AddSections(table_);
+}
+
+bool ContainerReader::HasSection(SectionKind kind) const {
+  const auto& section = table_.Section(kind);
+  if (!section || !has_all_tables()) return false;
+  const uint64_t begin = layout_.section_begin()[static_cast<size_t>(kind)];
+  return begin <= bytes_.size() && section->bytes <= bytes_.size() - begin;
+}
+
+std::span<const uint8_t> ContainerReader::Section(SectionKind kind) const {
+  return bytes_.subspan(layout_.section_begin()[static_cast<size_t>(kind)],
+                        table_.Section(kind)->bytes);
 }
 
 std::string ContainerReader::PlaceOf(size_t layer, size_t subtree, SegmentPart part) const {

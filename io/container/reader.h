@@ -40,6 +40,11 @@ class ContainerReader {
   /// segment has none). kCorrupt when it differs or lies beyond the end.
   Result<std::span<const uint8_t>> Segment(size_t layer, size_t subtree, SegmentPart part) const;
 
+  /// Is the section in the file, and whole.
+  bool HasSection(SectionKind kind) const;
+  /// The bytes of one that is there, not verified yet: see BlockReader.
+  std::span<const uint8_t> Section(SectionKind kind) const;
+
   /// Byte positions of layer k < table().layers.size(): LayerEnd(k) bytes are needed to decode
   /// layers 0 .. k.
   uint64_t LayerBegin(size_t layer) const { return layout_.layer_begin()[layer]; }

@@ -130,6 +130,21 @@ std::string SegmentsFault(const FileTable& table) {
   return {};
 }
 
+std::string SectionsFault(const FileTable& table) {
+  const bool has_polygons = table.Section(SectionKind::kPolygons).has_value();
+  if (!table.HasSections() && (table.polygons != 0 || table.largest_face != 0)) {
+    return "faces of the scan, but no section";
+  }
+  if (table.polygons > table.faces || table.largest_face > table.faces + 2) {
+    return "more faces in the scan than triangles";
+  }
+  // Only the last table tells.
+  if (table.largest_face != 0 && !has_polygons && table.largest_face != 3) {
+    return "a face of more than three corners, but no polygons";
+  }
+  return {};
+}
+
 }  // namespace
 
 float NextErrorBound(double bound) {
@@ -142,7 +157,7 @@ std::string TableFault(const FileTable& table) {
     return "2^48 vertices or faces, or more";
   }
   for (const auto& fault : {LatticeFault(table), ExtrasFault(table), LayersFault(table),
-                            SubtreesFault(table), SegmentsFault(table)}) {
+                            SubtreesFault(table), SegmentsFault(table), SectionsFault(table)}) {
     if (!fault.empty()) return fault;
   }
   return {};

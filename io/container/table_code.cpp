@@ -17,8 +17,12 @@ namespace {
 constexpr uint64_t kMaxCoordinate = (uint64_t{1} << 30) - 1;
 /// Fewest bytes of a record: varint, box of six, neighbour count.
 constexpr uint64_t kLeastSubtreeBytes = 8;
-/// Flags of the mesh: the origin is of floats; there are attributes or remarks.
-constexpr uint8_t kShortOrigin = 1, kExtras = 2;
+/// Flags of the mesh: the origin is of floats; there are attributes or remarks; and, from the third
+/// on, a bit for each section.
+constexpr uint8_t kShortOrigin = 1, kExtras = 2, kFirstSection = 4;
+constexpr uint8_t kAllFlags = kFirstSection * ((1 << kSectionKinds) - 1) | kExtras | kShortOrigin;
+/// Bytes of a section that are never reached.
+constexpr uint64_t kMostSectionBytes = uint64_t{1} << 56;
 
 /// What so many layers take at least: a bit for each of three numbers, and the orders of the rows.
 uint64_t LayerBits(uint64_t layers) { return 3 * (layers + kRowParameterBits); }
@@ -195,12 +199,43 @@ void ReadExtras(ByteReader* in, FileTable* table) {
   if (!table->HasExtras()) in->Fail("neither attributes nor remarks where they are announced");
 }
 
+uint8_t SectionFlags(const FileTable& table) {
+  uint8_t flags = 0;
+  for (size_t i = 0; i < kSectionKinds; ++i) {
+    if (table.sections[i]) flags = static_cast<uint8_t>(flags | kFirstSection << i);
+  }
+  return flags;
+}
+
+void WriteSections(const FileTable& table, ByteWriter* out) {
+  if (!table.HasSections()) return;
+  out->Varint(table.polygons);
+  out->Varint(table.largest_face);
+  for (const std::optional<SectionRecord>& section : table.sections) {
+    if (!section) continue;
+    out->Varint(section->bytes);
+    out->U64(section->digest);
+  }
+}
+
+void ReadSections(ByteReader* in, FileTable* table) {
+  if (!table->HasSections()) return;
+  table->polygons = in->VarintUpTo(table->faces, "number of faces as the scan has them");
+  table->largest_face = in->VarintUpTo(table->faces + 2, "corners of the largest face");
+  for (std::optional<SectionRecord>& section : table->sections) {
+    if (!section) continue;
+    section->bytes = in->VarintUpTo(kMostSectionBytes, "length of a section");
+    section->digest = in->U64();
+  }
+}
+
 void WriteMesh(const FileTable& table, ByteWriter* out) {
   out->Varint(table.vertices);
   out->Varint(table.faces);
   out->U8(table.coordinate_type);
   const bool is_short = HasShortOrigin(table);
-  out->U8(static_cast<uint8_t>((is_short ? kShortOrigin : 0) | (table.HasExtras() ? kExtras : 0)));
+  out->U8(static_cast<uint8_t>((is_short ? kShortOrigin : 0) | (table.HasExtras() ? kExtras : 0) |
+                               SectionFlags(table)));
   for (const double origin : table.origin) {
     if (is_short) {
       out->F32(static_cast<float>(origin));
@@ -244,6 +279,7 @@ std::vector<CodedTable> EncodeTables(const FileTable& table) {
       out.U64(table.digest.faces);
       for (const uint64_t kind : table.kind_bits) out.Varint(kind);
       for (const uint64_t bits_of_one : table.attribute_bits) out.Varint(bits_of_one);
+      WriteSections(table, &out);
     }
     tables[i] = {ends[i], std::move(out).Take()};
   }
@@ -265,6 +301,7 @@ void TableDecoder::Decode(std::span<const uint8_t> bytes, uint64_t offset) {
     table_.digest.faces = in.U64();
     for (uint64_t& bits : table_.kind_bits) bits = in.Varint();
     for (uint64_t& bits : table_.attribute_bits) bits = in.Varint();
+    ReadSections(&in, &table_);
   }
   if (in.left() > 0) in.Fail(std::to_string(in.left()) + " bytes after the end of the table");
   const std::string fault = TableFault(table_);
@@ -276,7 +313,10 @@ void TableDecoder::DecodeMesh(ByteReader* in) {
   table_.faces = in->VarintUpTo(kMaxCount, "number of faces");
   table_.coordinate_type = in->U8();
   const uint8_t flags = in->U8();
-  if (flags > (kShortOrigin | kExtras)) in->Fail("flags of the mesh that are not known");
+  if (flags > kAllFlags) in->Fail("flags of the mesh that are not known");
+  for (size_t i = 0; i < kSectionKinds; ++i) {
+    if ((flags & kFirstSection << i) != 0) table_.sections[i].emplace();
+  }
   const bool is_short = (flags & kShortOrigin) != 0;
   for (double& origin : table_.origin) {
     origin = is_short ? static_cast<double>(in->F32()) : in->F64();

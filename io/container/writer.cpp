@@ -70,9 +70,26 @@ std::span<const uint8_t> CheckedSegment(const FileTable& table, const SegmentByt
           std::to_string(bytes.size()) + " bytes, the table says " + std::to_string(announced));
 }
 
+/// Of all sections; their bytes are given.
+uint64_t AppendSections(const FileTable& table, const SectionBytes& section, BufferedFile* file) {
+  uint64_t bytes = 0;
+  for (size_t i = 0; i < kSectionKinds; ++i) {
+    if (!table.sections[i]) continue;
+    const auto all = section(static_cast<SectionKind>(i));
+    if (all.size() != table.sections[i]->bytes) {
+      throw Failure(ErrorKind::kInternal,
+                    "section " + std::to_string(i) + " is not as long as the table says");
+    }
+    file->Append(all);
+    bytes += all.size();
+  }
+  return bytes;
+}
+
 }  // namespace
 
-uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out) {
+uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out,
+                        const SectionBytes& section) {
   const std::vector<CodedTable> tables = EncodeTables(table);
   const std::vector<uint8_t> header = EncodeHeader(tables[0].bytes);
   FileLayout layout(header.size());
@@ -109,6 +126,7 @@ uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, Ato
       }
     }
   }
+  at += AppendSections(table, section, &file);
   file.Flush();
   return at;
 }

@@ -18,10 +18,14 @@ namespace folprom::io {
 using SegmentBytes =
     std::function<std::span<const uint8_t>(size_t layer, size_t subtree, SegmentPart part)>;
 
-/// Appends tables and segments to `out` (does not commit). The file's size is returned.
+/// Gives the bytes of a section that the table has, valid until the next call.
+using SectionBytes = std::function<std::span<const uint8_t>(SectionKind kind)>;
+
+/// Appends tables, segments and sections to `out` (does not commit). The file's size is returned.
 /// Thread-compatible; holds the tables and a buffer of 256 KiB. Throws Failure: kOutput; kInternal
 /// when the table contradicts itself or a segment is not as long as the table says; kLimit when the
 /// first table takes 4 GiB or more; and what `segment` throws.
-uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out);
+uint64_t WriteContainer(const FileTable& table, const SegmentBytes& segment, AtomicFile& out,
+                        const SectionBytes& section = {});
 
 }  // namespace folprom::io

@@ -5,6 +5,7 @@
 #include "engine/decode_pipeline.h"
 #include "engine/folp_file.h"
 #include "engine/mesh_sinks.h"
+#include "engine/ordered_mesh.h"
 #include "engine/run_guarded.h"
 #include "folprom/folprom.h"
 #include "io/formats/mesh_writer.h"
@@ -112,8 +113,19 @@ class DecodeJob {
       report.warnings.push_back("the file is cut: " + std::to_string(present) + " of " +
                                 std::to_string(report.layers_total) + " layers are whole");
     }
+    if (report.complete && table.HasSections()) {
+      if (HasWholeSections(file_.container())) {
+        AddSectionBytes(&report);
+      } else {
+        report.warnings.push_back(
+            "the file is cut: the scan's order and polygons are not there, decoded are triangles "
+            "in the order of the file");
+      }
+    }
     if (options_.use_region) {
       DecodeRegion(&report);
+    } else if (report.complete && HasWholeSections(file_.container())) {
+      DecodeOrdered(&report);
     } else {
       DecodeAll(&report);
     }
@@ -122,9 +134,11 @@ class DecodeJob {
   }
 
  private:
-  std::unique_ptr<io::MeshWriter> MakeWriter(uint64_t vertices, uint64_t faces) const {
-    auto type = static_cast<ScalarType>(file_.table().coordinate_type);
-    const io::MeshShape shape{vertices, faces, type, file_.table().schema, file_.table().remarks};
+  /// shape: the counts; the rest is of the file.
+  std::unique_ptr<io::MeshWriter> MakeWriter(io::MeshShape shape) const {
+    shape.coordinate_type = static_cast<ScalarType>(file_.table().coordinate_type);
+    shape.schema = file_.table().schema;
+    shape.remarks = file_.table().remarks;
     return io::MeshWriter::Create(output_, shape, options_.overwrite).value();
   }
   void Commit(io::MeshWriter& writer, DecodeReport* report) const {
@@ -140,12 +154,58 @@ class DecodeJob {
 
   void DecodeAll(DecodeReport* report) {
     const io::LayerRecord& layer = file_.table().layers[selection_.layers - 1];
-    auto writer = MakeWriter(layer.vertices, layer.faces);
+    auto writer = MakeWriter({layer.vertices, layer.faces});
     FileSink sink(file_.lattice(), layer, file_.container().name(), *writer);
     Decode(sink);
     report->vertices = sink.vertices();
     report->faces = sink.faces();
     sink.CheckComplete();
+    Commit(*writer, report);
+  }
+
+  void AddSectionBytes(DecodeReport* report) const {
+    for (const auto& section : file_.table().sections) {
+      if (section) report->bytes_read += section->bytes;
+    }
+  }
+
+  /// As the scan had it.
+  void DecodeOrdered(DecodeReport* report) {
+    constexpr size_t kBlock = 65536;
+    const io::FileTable& table = file_.table();
+    io::SpillDirectory spill(options_.temporary_folder);
+    OrderedMesh mesh(file_.container(), file_.lattice(), spill, options_.limits.memory_bytes);
+    Decode(mesh);
+    progress_.StartStage("order", table.vertices + table.faces);
+    mesh.Finish();
+    io::MeshShape shape{table.vertices, table.polygons};
+    shape.triangles = table.faces;
+    shape.largest_face = table.largest_face;
+    auto writer = MakeWriter(shape);
+    std::vector<double> xyz;
+    std::vector<uint8_t> attributes;
+    for (uint64_t begin = 0; begin < table.vertices; begin += kBlock) {
+      progress_.ThrowIfCancelled();
+      const auto count = static_cast<size_t>(std::min<uint64_t>(kBlock, table.vertices - begin));
+      mesh.ReadVertices(begin, count, &xyz, &attributes);
+      writer->AppendVertices(xyz, attributes).value();
+      progress_.Advance(count);
+    }
+    FaceChunk chunk;
+    std::vector<io::Triangle> triangles;
+    while (mesh.ReadFaces(&chunk)) {
+      progress_.ThrowIfCancelled();
+      triangles.clear();
+      for (const Face& f : chunk.triangles) triangles.push_back({f[0], f[1], f[2]});
+      if (chunk.joins.empty()) {
+        writer->AppendFaces(triangles).value();
+      } else {
+        writer->AppendPolygons(triangles, chunk.joins).value();
+      }
+      progress_.Advance(triangles.size());
+    }
+    report->vertices = table.vertices;
+    report->faces = table.polygons;
     Commit(*writer, report);
   }
 
@@ -161,7 +221,7 @@ class DecodeJob {
     if (sink.vertices() == 0) {
       report->warnings.push_back("no vertex lies in the region; folprom info tells the mesh's box");
     }
-    auto writer = MakeWriter(sink.vertices(), sink.faces());
+    auto writer = MakeWriter({sink.vertices(), sink.faces()});
     sink.WriteTo(*writer);
     Commit(*writer, report);
   }

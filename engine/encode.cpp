@@ -28,13 +28,15 @@ BitCounts BitsOf(const CostMeters& costs) {
 EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptions& options,
                     Resume resume) {
   auto out = io::AtomicFile::Create(output, options.overwrite).value();
-  if (resume == Resume::kNever || !job.Resume(output, resume)) {
+  // What the sections need of each subtree is not among what is kept.
+  if (resume == Resume::kNever || job.HasSections() || !job.Resume(output, resume)) {
     job.CheckRoom(*out);
     job.MeasureScan();
     job.Partition();
   }
   job.EncodeSubtrees(false);
   job.EncodeSeams();
+  job.EncodeSections();
   io::FileTable table = job.MakeTable();
   EncodeReport report;
   report.bytes = job.WriteFile(table, *out);
@@ -42,6 +44,11 @@ EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptio
   job.source().CheckUnchanged().value();
   report.resumed_subtrees = job.resumed_subtrees();
   out->Commit().value();
+  const auto bytes_of = [&](io::SectionKind kind) {
+    return table.Section(kind) ? table.Section(kind)->bytes : 0;
+  };
+  report.order_bytes = bytes_of(io::SectionKind::kOrder);
+  report.polygon_bytes = bytes_of(io::SectionKind::kPolygons);
   report.vertices = table.vertices;
   report.faces = table.faces;
   report.subtrees = table.subtrees.size();

@@ -54,6 +54,12 @@ void EncodeJob::CheckRoom(const io::AtomicFile& out) const {
 }
 
 void EncodeJob::MeasureScan() {
+  if (options_.keep_order && source_->notes().polygons_dropped > 0) {
+    throw Failure(ErrorKind::kInput,
+                  source_->path() + ": " + std::to_string(source_->notes().polygons_dropped) +
+                      " faces of fewer than three corners, which cannot keep their place; without "
+                      "keep_order they are dropped");
+  }
   if (options_.exact) {
     MeasureExactScan();
     return;
@@ -162,6 +168,7 @@ void EncodeJob::EncodeSubtrees(bool keep_order, const char* stage) {
     return scan_->summary(a).vertices > scan_->summary(b).vertices;
   });
   if (keep_order) order_.emplace(*spill_, "order");
+  if (Sections().any()) curve_.emplace(*spill_, "curve");
   progress_.StartStage(stage, source_->vertex_count(), "vertices");
   progress_.Advance(done);
   parallel::MemoryBudget budget(WorkingBytes(options_.limits.memory_bytes) * 3 / 4);
@@ -198,6 +205,10 @@ void EncodeJob::EncodeOne(size_t subtree, bool keep_order) {
   }
   if (keep_order) {
     order_->WriteRecords<uint32_t>(first_vertex_[subtree], encoded.final_vertices);
+  }
+  if (curve_) {
+    curve_->WriteRecords<uint32_t>(first_vertex_[subtree],
+                                   CurvePlaces(chunk.positions, encoded.final_vertices));
   }
   if (journal_) journal_->Add(number, outcome);
   outcomes_[subtree].has_inner = true;
@@ -240,6 +251,25 @@ void EncodeJob::EncodeOneSeam(size_t owner, const std::vector<uint32_t>& members
   outcome.meter = encoded.meter;
   if (journal_) journal_->Add(static_cast<uint32_t>(owner), outcome);
   outcomes_[owner].has_seam = true;
+}
+
+SectionChoice EncodeJob::Sections() const {
+  SectionChoice choice;
+  choice.order = options_.keep_order;
+  choice.polygons =
+      options_.codec.offsets == Offsets::kLattice && source_->notes().polygons_triangulated > 0;
+  return choice;
+}
+
+void EncodeJob::EncodeSections() {
+  if (!Sections().any()) return;
+  if (!scan_) {
+    // Of no vertex at all there is nothing to tell.
+    if (Sections().order) sections_.records[static_cast<size_t>(io::SectionKind::kOrder)].emplace();
+    return;
+  }
+  sections_ = folprom::EncodeSections(Sections(), *source_, *scan_, curve_->Map(), *spill_,
+                                      options_.limits.memory_bytes, progress_);
 }
 
 void EncodeJob::DropEmptyLayers() {
@@ -311,6 +341,9 @@ io::FileTable EncodeJob::MakeTable() {
                      costs_.exceptions / 1024,
                      costs_.seams / 1024};
   for (uint64_t cost : costs_.attributes) table.attribute_bits.push_back(cost / 1024);
+  table.sections = sections_.records;
+  table.polygons = sections_.polygons;
+  table.largest_face = sections_.largest_face;
   for (uint32_t layer : kept_layers_) {
     io::LayerRecord record;
     double distance = 0;
@@ -360,7 +393,12 @@ uint64_t EncodeJob::WriteFile(const io::FileTable& table, io::AtomicFile& out) {
         mapped = io::MapSpillFile(spill_->File(name));
         return mapped.bytes().subspan(begins(sizes)[stored], sizes[stored]);
       },
-      out);
+      out,
+      [&](io::SectionKind kind) {
+        const auto& section = table.Section(kind);
+        mapped = section->bytes == 0 ? io::MappedFile() : SectionFile(*spill_, kind);
+        return mapped.bytes();
+      });
 }
 
 std::vector<std::string> EncodeJob::Warnings() const {
@@ -370,7 +408,7 @@ std::vector<std::string> EncodeJob::Warnings() const {
   auto count = [](uint64_t n, const char* one, const char* many) {
     return std::to_string(n) + " " + (n == 1 ? one : many);
   };
-  if (notes.polygons_triangulated > 0) {
+  if (notes.polygons_triangulated > 0 && !Sections().polygons) {
     warnings.push_back(count(notes.polygons_triangulated, "polygon", "polygons") +
                        " cut into triangles");
   }

@@ -14,6 +14,7 @@
 #include "engine/partition/offset_file.h"
 #include "engine/partition/partition.h"
 #include "engine/resolution.h"
+#include "engine/section_encoder.h"
 #include "folprom/folprom.h"
 #include "io/container/file_table.h"
 #include "io/files/atomic_file.h"
@@ -48,7 +49,13 @@ class EncodeJob {
   void EncodeSubtrees(bool keep_order, const char* stage = "encode");
   /// Subtree by subtree, the index that each vertex gets in its subtree, as uint32_t.
   io::MappedFile MapOrder() const { return order_->Map(); }
+  /// The same of their places along the curve of the subtree; where the scan has sections.
+  io::MappedFile MapCurve() const { return curve_->Map(); }
   void EncodeSeams();
+  /// What the scan's own order and faces need, if they are kept.
+  void EncodeSections();
+  /// Are there any; known from the beginning.
+  bool HasSections() const { return Sections().any(); }
   io::FileTable MakeTable();
   uint64_t WriteFile(const io::FileTable& table, io::AtomicFile& out);
 
@@ -73,6 +80,7 @@ class EncodeJob {
   /// Are the attributes of vertices coded, if there are any.
   bool KeepsAttributes() const;
   std::vector<ValueSpan> SpansOfAttributes() const;
+  SectionChoice Sections() const;
   /// What stays in memory of a subtree and its seam once their bits are spilled.
   struct Outcome {
     SubtreeOutcome inner;
@@ -112,7 +120,8 @@ class EncodeJob {
   std::unique_ptr<PartitionedScan> scan_;
   std::vector<Outcome> outcomes_;
   std::vector<uint64_t> first_vertex_;  ///< of each subtree
-  std::optional<partition::OffsetFile> order_;
+  std::optional<partition::OffsetFile> order_, curve_;
+  EncodedSections sections_;
   CostMeters costs_;
   std::vector<uint32_t> kept_layers_;
 };

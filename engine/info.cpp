@@ -51,6 +51,11 @@ void DescribeBits(const FolpFile& file, FileInfo* info) {
       static_cast<double>(std::max<uint64_t>(info->bytes, 1));
 }
 
+SectionInfo SectionOf(const io::FileTable& table, io::SectionKind kind) {
+  const auto& section = table.Section(kind);
+  return section ? SectionInfo{true, section->bytes} : SectionInfo{};
+}
+
 }  // namespace
 
 Result<FileInfo> ReadInfo(const std::string& input) {
@@ -86,6 +91,9 @@ Result<FileInfo> ReadInfo(const std::string& input) {
           {attribute.name, attribute.type, static_cast<double>(table.attribute_bits[a])});
     }
     info.remarks = table.remarks;
+    info.order = SectionOf(table, io::SectionKind::kOrder);
+    info.polygons = SectionOf(table, io::SectionKind::kPolygons);
+    info.scan_faces = table.polygons;
     DescribeLayers(file, &info);
     DescribeBits(file, &info);
     return info;

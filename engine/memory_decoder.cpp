@@ -1,9 +1,12 @@
 #include <deque>
 #include <new>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "engine/codec/layer_reader.h"
 #include "engine/mesh/lattice.h"
+#include "engine/section_decoder.h"
 #include "folprom/decoder.h"
 #include "io/container/reader.h"
 #include "io/formats/mesh_source.h"
@@ -43,6 +46,24 @@ void CheckModels(const io::FileTable& table, uint64_t memory_bytes) {
                     " MiB, more than the limit of " + std::to_string(memory_bytes >> 20) + " MiB");
 }
 
+/// A mesh as its sections have it.
+struct ScanOrder {
+  std::vector<uint32_t> vertices;  ///< at each place the number of the vertex as it was decoded
+  std::vector<Face> faces;         ///< of these places
+  std::vector<uint64_t> polygon_begin;
+};
+
+/// Elements of `size` bytes in the order of the scan.
+void Reorder(const std::vector<uint32_t>& vertices, size_t size, std::vector<uint8_t>* values) {
+  std::vector<uint8_t> ordered;
+  ordered.reserve(values->size());
+  for (const size_t vertex : vertices) {
+    const auto begin = values->begin() + static_cast<std::ptrdiff_t>(vertex * size);
+    ordered.insert(ordered.end(), begin, begin + static_cast<std::ptrdiff_t>(size));
+  }
+  *values = std::move(ordered);
+}
+
 }  // namespace
 
 struct MemoryDecoder::Impl {
@@ -80,11 +101,79 @@ struct MemoryDecoder::Impl {
     }
   }
 
+  /// Where the file tells how the scan stood in its own, and all of it is there.
+  void DecodeSections() {
+    if (!HasWholeSections(container)) return;
+    const io::FileTable& table = container.table();
+    CheckOrderable(table.vertices, table.faces, container.name());
+    std::vector<uint32_t> number_of;  // along the curve, of each vertex as it was decoded
+    for (const SubtreeReader& subtree : subtrees) {
+      const auto& positions = subtree.state().positions();
+      std::vector<uint32_t> numbers(positions.size());
+      std::iota(numbers.begin(), numbers.end(), 0u);
+      const auto base = static_cast<uint32_t>(number_of.size());
+      for (const uint32_t place : CurvePlaces(positions, numbers)) {
+        number_of.push_back(base + place);
+      }
+    }
+    std::vector<Int3> positions(number_of.size());
+    std::vector<uint32_t> vertex_of(number_of.size());
+    size_t vertex = 0;
+    for (const SubtreeReader& subtree : subtrees) {
+      for (const Int3& position : subtree.state().positions()) {
+        positions[number_of[vertex]] = position;
+        vertex_of[number_of[vertex]] = static_cast<uint32_t>(vertex);
+        ++vertex;
+      }
+    }
+    std::vector<Face> faces;
+    for (const std::array<uint64_t, 3>& f : Faces()) {
+      faces.push_back({number_of[f[0]], number_of[f[1]], number_of[f[2]]});
+    }
+    HeapSpace space;
+    SectionDecoder decoder(container, positions, faces, space);
+    ScanOrder result;
+    for (const uint32_t number : decoder.sequence()) result.vertices.push_back(vertex_of[number]);
+    FaceChunk chunk;
+    while (decoder.Next(&chunk)) {
+      for (size_t i = 0; i < chunk.joins.size(); ++i) {
+        if (chunk.joins[i] == 0) result.polygon_begin.push_back(result.faces.size() + i);
+      }
+      result.faces.insert(result.faces.end(), chunk.triangles.begin(), chunk.triangles.end());
+    }
+    order = std::move(result);
+  }
+
+  /// Of the vertices as they were decoded, subtree by subtree.
+  std::vector<std::array<uint64_t, 3>> Faces() const {
+    std::vector<std::array<uint64_t, 3>> all;
+    std::vector<uint64_t> base;
+    std::vector<std::vector<uint32_t>> border;
+    std::vector<Face> faces;
+    uint64_t first = 0;
+    for (const SubtreeReader& subtree : subtrees) {
+      base.push_back(first);
+      border.push_back(subtree.state().BorderVertices());
+      faces.clear();
+      subtree.state().AppendFaces(&faces);
+      for (const Face& f : faces) all.push_back({first + f[0], first + f[1], first + f[2]});
+      first += subtree.state().positions().size();
+    }
+    std::vector<SeamFace> cross;
+    for (const SeamReader& seam : seams) seam.state().AppendFaces(&cross);
+    auto index = [&](const BorderRef& ref) {
+      return base[ref.subtree] + border[ref.subtree][ref.border];
+    };
+    for (const SeamFace& f : cross) all.push_back({index(f[0]), index(f[1]), index(f[2])});
+    return all;
+  }
+
   io::ContainerReader container;
   CodecParameters parameters;
   std::deque<SubtreeReader> subtrees;  // addresses stay: seams point into them
   std::deque<SeamReader> seams;
   size_t decoded = 0;
+  std::optional<ScanOrder> order;
 };
 
 MemoryDecoder::MemoryDecoder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -122,6 +211,7 @@ Result<void> MemoryDecoder::DecodeNextLayer() {
     for (SeamReader& seam : impl_->seams) seam.DecodeLayer();
     impl_->CheckCounts();
     ++impl_->decoded;
+    if (impl_->decoded == layer_count()) impl_->DecodeSections();
     return {};
   } catch (const Failure& failure) {
     return failure.error();
@@ -139,30 +229,29 @@ DecodedMesh MemoryDecoder::Mesh() const {
   for (const io::VertexAttribute& attribute : table.schema.attributes) {
     mesh.attributes.push_back({attribute.name, attribute.type, {}});
   }
-  std::vector<uint64_t> base;
-  std::vector<std::vector<uint32_t>> border;
-  std::vector<Face> faces;
   for (const SubtreeReader& subtree : impl_->subtrees) {
-    base.push_back(mesh.positions.size());
-    border.push_back(subtree.state().BorderVertices());
     const std::vector<ExactPosition> exact = subtree.state().DrawnPositions(lattice, bound);
     mesh.positions.insert(mesh.positions.end(), exact.begin(), exact.end());
     for (const Int3& p : subtree.state().positions()) {
       if (exact.empty()) mesh.positions.push_back(lattice.ToModel(p));
     }
     AppendAttributes(subtree.state().Attributes(), table.schema, &mesh.attributes);
-    faces.clear();
-    subtree.state().AppendFaces(&faces);
-    for (const Face& f : faces) {
-      mesh.faces.push_back({base.back() + f[0], base.back() + f[1], base.back() + f[2]});
-    }
   }
-  std::vector<SeamFace> cross;
-  for (const SeamReader& seam : impl_->seams) seam.state().AppendFaces(&cross);
-  auto index = [&](const BorderRef& ref) {
-    return base[ref.subtree] + border[ref.subtree][ref.border];
-  };
-  for (const SeamFace& f : cross) mesh.faces.push_back({index(f[0]), index(f[1]), index(f[2])});
+  if (!impl_->order) {
+    mesh.faces = impl_->Faces();
+    return mesh;
+  }
+  const ScanOrder& order = *impl_->order;
+  std::vector<std::array<double, 3>> positions;
+  positions.reserve(order.vertices.size());
+  for (const size_t vertex : order.vertices) positions.push_back(mesh.positions[vertex]);
+  mesh.positions = std::move(positions);
+  for (DecodedAttribute& attribute : mesh.attributes) {
+    Reorder(order.vertices, ScalarSize(attribute.type), &attribute.values);
+  }
+  for (const Face& f : order.faces) mesh.faces.push_back({f[0], f[1], f[2]});
+  mesh.polygon_begin = order.polygon_begin;
+  mesh.has_scan_order = table.Section(io::SectionKind::kOrder).has_value();
   return mesh;
 }
 

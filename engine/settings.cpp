@@ -183,6 +183,11 @@ Result<void> CheckOptions(const EncodeOptions& options) {
     return Error{ErrorKind::kUsage,
                  "exact needs offsets = \"lattice\" and hierarchy = \"quadric\", the defaults"};
   }
+  if (options.keep_order && options.codec.offsets != Offsets::kLattice) {
+    return Error{
+        ErrorKind::kUsage,
+        "keep_order needs offsets = \"lattice\" and hierarchy = \"quadric\", the defaults"};
+  }
   return CheckSettings(options.codec);
 }
 

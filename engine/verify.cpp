@@ -1,16 +1,14 @@
 // Is what comes back what went in: by the digest in the file, or vertex by vertex with the scan.
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <cmath>
-#include <limits>
+#include <optional>
 
 #include "engine/decode_pipeline.h"
 #include "engine/encode_job.h"
 #include "engine/folp_file.h"
 #include "engine/mesh_sinks.h"
 #include "engine/run_guarded.h"
-#include "folprom/float_bits.h"
+#include "engine/verify_sections.h"
 #include "folprom/folprom.h"
 #include "io/container/checksum.h"
 
@@ -19,15 +17,6 @@ namespace {
 
 DecodeSelection Everything(const FolpFile& file) {
   return {file.table().layers.size(), AllSubtrees(file.table())};
-}
-
-/// The value that a file of floats gives back.
-double AsFloat(double value) { return WidenFloat(std::bit_cast<float>(NarrowToFloatBits(value))); }
-
-/// Infinite where either is not finite: a NaN would be lost among the errors of other vertices.
-double ErrorOf(double value, double original) {
-  const double error = std::fabs(value - original);
-  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
 /// Hash of a face by the indices of its vertices, the same for every rotation.
@@ -108,12 +97,21 @@ class Comparison {
       return;
     }
     if (!AreExtrasAlike(report)) return;
+    if (table.Section(io::SectionKind::kOrder)) {
+      RunInOrder(memory_bytes, temporary_folder, report);
+      return;
+    }
     job_.UseResolution({file_.lattice(), table.tolerance});
     job_.Partition();
     job_.EncodeSubtrees(true, "match");
     MatchSink sink(file_.lattice(), job_.spill());
+    std::optional<OrderedMesh> ordered;
+    if (table.Section(io::SectionKind::kPolygons)) {
+      ordered.emplace(file_.container(), file_.lattice(), job_.spill(), memory_bytes);
+    }
+    TwoSinks both(sink, ordered ? &*ordered : nullptr);
     DecodeInto(file_.container(), file_.parameters(), Everything(file_), memory_bytes,
-               temporary_folder, runner_, progress_, sink);
+               temporary_folder, runner_, progress_, both);
     if (sink.digest.digest() != table.digest) {
       report->reason = "the decoded mesh differs from the digest in the file";
       return;
@@ -128,6 +126,7 @@ class Comparison {
     ComparePositions(report);
     if (report->reason.empty()) CompareAttributes(report);
     if (report->reason.empty()) CompareFaces(sink.face_sum, report);
+    if (report->reason.empty() && ordered) ComparePolygons(*ordered, report);
   }
 
  private:
@@ -139,6 +138,21 @@ class Comparison {
     encode.limits = options.limits;
     encode.temporary_folder = options.temporary_folder;
     return encode;
+  }
+
+  /// Element by element: the order itself tells which vertex is which.
+  void RunInOrder(uint64_t memory_bytes, const std::string& temporary_folder,
+                  VerifyReport* report) {
+    DigestSink digest(file_.lattice());
+    OrderedMesh ordered(file_.container(), file_.lattice(), job_.spill(), memory_bytes);
+    TwoSinks both(digest, &ordered);
+    DecodeInto(file_.container(), file_.parameters(), Everything(file_), memory_bytes,
+               temporary_folder, runner_, progress_, both);
+    if (digest.digest() != file_.table().digest) {
+      report->reason = "the decoded mesh differs from the digest in the file";
+      return;
+    }
+    CompareInOrder(file_, ordered, job_.source(), progress_, report);
   }
 
   /// What the file keeps beside positions and faces, by name and type.
@@ -201,10 +215,8 @@ class Comparison {
 
   void ComparePositions(VerifyReport* report) {
     const io::MeshSource& source = job_.source();
-    bool as_float = static_cast<ScalarType>(file_.table().coordinate_type) == ScalarType::kFloat32;
     size_t blocks = source.vertex_block_count();
-    std::vector<double> largest(blocks, 0);
-    std::atomic<bool> same_bits = true;
+    std::vector<CoordinateCheck> checks(blocks, CoordinateCheck(file_));
     progress_.StartStage("compare vertices", blocks);
     runner_.ForEach(blocks, [&](size_t b) {
       std::vector<double> xyz;
@@ -214,25 +226,34 @@ class Comparison {
         const VertexRef& ref = job_.scan().vertex_map()[first + i];
         const ExactPosition& p = io::MappedArray<ExactPosition>(decoded_)[FinalVertex(ref)];
         for (size_t axis = 0; axis < 3; ++axis) {
-          const double value = as_float ? AsFloat(p[axis]) : p[axis], original = xyz[3 * i + axis];
-          if (std::bit_cast<uint64_t>(value) == std::bit_cast<uint64_t>(original)) continue;
-          same_bits = false;
-          largest[b] = std::max(largest[b], ErrorOf(value, original));
+          checks[b].Add(p[axis], xyz[3 * i + axis]);
         }
       }
       if (b % 64 == 63) DropResident();
       progress_.Advance(1);
     });
-    for (double error : largest) {
-      report->max_position_error = std::max(report->max_position_error, error);
+    bool same_bits = true;
+    for (const CoordinateCheck& check : checks) {
+      report->max_position_error = std::max(report->max_position_error, check.largest_error);
+      same_bits &= check.same_bits;
     }
-    if (file_.lattice().exact) {
-      if (!same_bits) report->reason = "a coordinate differs from that of the scan in its bits";
+    CoordinateCheck::Judge(file_, same_bits, report);
+  }
+
+  void ComparePolygons(OrderedMesh& decoded, VerifyReport* report) {
+    CheckSections(decoded);
+    if (job_.source().notes().polygons_triangulated == 0) {
+      report->reason = "the file has polygons, the scan has none";
       return;
     }
-    // The last digits of the subtraction itself are no error of the coder.
-    if (report->max_position_error > report->tolerance * (1 + 1e-9)) {
-      report->reason = "a position is off by more than the tolerance";
+    const io::MappedFile curve = job_.MapCurve();
+    const uint64_t digest = DigestOfPolygons(job_.source(), [&](uint64_t vertex) {
+      const VertexRef& ref = job_.scan().vertex_map()[vertex];
+      const uint64_t first = first_vertex_[ref.subtree];
+      return static_cast<uint32_t>(first + io::MappedArray<uint32_t>(curve)[first + ref.local]);
+    });
+    if (digest != file_.table().Section(io::SectionKind::kPolygons)->digest) {
+      report->reason = "the polygons of scan and file differ";
     }
   }
 
@@ -295,12 +316,21 @@ void CompareDigest(const FolpFile& file, const DecodeOptions& options, parallel:
                    parallel::Progress& progress, VerifyReport* report) {
   const io::FileTable& table = file.table();
   DigestSink sink(file.lattice());
+  std::optional<io::SpillDirectory> spill;
+  std::optional<OrderedMesh> ordered;
+  if (table.HasSections()) {
+    spill.emplace(options.temporary_folder);
+    ordered.emplace(file.container(), file.lattice(), *spill, options.limits.memory_bytes);
+  }
+  TwoSinks both(sink, ordered ? &*ordered : nullptr);
   DecodeInto(file.container(), file.parameters(), Everything(file), options.limits.memory_bytes,
-             options.temporary_folder, runner, progress, sink);
+             options.temporary_folder, runner, progress, both);
   if (sink.vertices() != table.vertices || sink.faces() != table.faces) {
     report->reason = "decoded counts differ from those of the table";
   } else if (sink.digest() != table.digest) {
     report->reason = "the decoded mesh differs from the digest in the file";
+  } else if (ordered) {
+    CheckSections(*ordered);
   }
 }
 
@@ -317,10 +347,13 @@ Result<VerifyReport> VerifyFile(const std::string& input, const std::string& ori
     report.faces = file.table().faces;
     report.tolerance = file.table().tolerance;
     report.against = !original.empty();
+    report.order_kept = file.table().Section(io::SectionKind::kOrder).has_value();
     size_t present = file.container().complete_layers(), all = file.container().layers_total();
     if (present < all) {
       report.reason = "the file is cut: " + std::to_string(present) + " of " + std::to_string(all) +
                       " layers are whole";
+    } else if (file.table().HasSections() && !HasWholeSections(file.container())) {
+      report.reason = "the file is cut: the scan's order and polygons are not there";
     } else if (original.empty()) {
       CompareDigest(file, options, runner, progress, &report);
     } else {

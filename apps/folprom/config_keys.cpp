@@ -79,6 +79,10 @@ std::vector<Key> EncodeKeys(EncodeConfig& config) {
        "colours, normals, all scalars of vertices, and comments come back; needs offsets = "
        "\"lattice\"",
        ""},
+      {"encode", "keep_order", &o.keep_order,
+       "vertices and faces come back in the scan's order, faces with their first corner first; "
+       "needs offsets = \"lattice\"",
+       ""},
       {"encode", "threads", &config.threads, "0: all; never alters the file", "threads", 0, 1024},
       {"encode", "memory", &o.limits.memory_bytes,
        "resident size to stay below; never alters the file", "bytes, or a text such as \"2GiB\"", 1,

@@ -40,6 +40,7 @@ struct EncodeFlags {
   std::optional<double> tolerance;
   bool exact = false;
   bool no_attributes = false;
+  bool keep_order = false;
   std::optional<uint64_t> subtree_vertices;
   bool print_config = false;
   bool force = false;
@@ -61,6 +62,7 @@ EncodeConfig Settings(const EncodeFlags& flags) {
   if (flags.bits || flags.tolerance) options.exact = false;
   if (flags.exact) options.exact = true;
   if (flags.no_attributes) options.attributes = false;
+  if (flags.keep_order) options.keep_order = true;
   if (flags.subtree_vertices) {
     // What does not fit is out of range in any case.
     options.codec.subtree_vertices =
@@ -100,6 +102,8 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
                {"vertices", report.vertices},
                {"faces", report.faces},
                {"bytes", report.bytes},
+               {"order_bytes", report.order_bytes},
+               {"polygon_bytes", report.polygon_bytes},
                {"bits_per_vertex", bits_per_vertex},
                {"seconds", seconds},
                {"peak_rss_bytes", PeakResidentBytes()},
@@ -201,6 +205,8 @@ Verb AddEncode(CLI::App& program) {
       ->excludes(tolerance);
   verb->add_flag("--no-attributes", flags->no_attributes,
                  "Without colours, normals and what else vertices have, and without comments");
+  verb->add_flag("--keep-order", flags->keep_order,
+                 "Vertices and faces come back in the scan's order");
   verb->add_option("--effort", flags->effort,
                    "1 fastest .. 9 smallest file; wins over the settings, other flags over it")
       ->check(CLI::Range(1, 9))

@@ -69,6 +69,12 @@ Json ExactJson(const FileInfo& info) {
           {"has_rests", info.exact->has_rests}};
 }
 
+/// Null where the file does not keep it.
+Json SectionJson(const SectionInfo& section) {
+  if (!section.is_kept) return nullptr;
+  return {{"bytes", section.bytes}};
+}
+
 Json InfoJson(const FileInfo& info) {
   Json layers = Json::array();
   for (const LayerInfo& layer : info.layers) {
@@ -97,6 +103,9 @@ Json InfoJson(const FileInfo& info) {
           {"bits_per_vertex_by_kind", kinds},
           {"attributes", AttributesJson(info.attributes, info.has_bits ? info.vertices : 0)},
           {"comments", info.remarks},
+          {"order", SectionJson(info.order)},
+          {"polygons", SectionJson(info.polygons)},
+          {"scan_faces", info.scan_faces > 0 ? Json(info.scan_faces) : Json()},
           {"table_bytes", info.table_bytes},
           {"checksum_bytes", info.checksum_bytes},
           {"flush_bytes", info.flush_bytes},
@@ -138,6 +147,14 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
   }
   for (const std::string& remark : info.remarks) {
     fmt::format_to(out, "{}\n", Printable(remark));
+  }
+  if (info.order.is_kept) {
+    fmt::format_to(out, "keeps the order of vertices and faces: {} bytes\n",
+                   Grouped(info.order.bytes));
+  }
+  if (info.polygons.is_kept) {
+    fmt::format_to(out, "keeps polygons, {} faces in the scan: {} bytes\n",
+                   Grouped(info.scan_faces), Grouped(info.polygons.bytes));
   }
   if (info.has_bits) {
     fmt::format_to(out, "bits per vertex:");

@@ -38,6 +38,7 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
                {"vertices", report.vertices},
                {"faces", report.faces},
                {"attributes", report.attributes},
+               {"order_kept", report.order_kept},
                {"reason", report.reason},
                {"seconds", seconds},
                {"peak_rss_bytes", PeakResidentBytes()}});
@@ -52,6 +53,7 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
         text += fmt::format(", {} attributes equal", report.attributes);
       }
     }
+    if (report.order_kept) text += ", order kept";
     Print(text + fmt::format("; {:.1f} s\n", seconds));
   }
 }

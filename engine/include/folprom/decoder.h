@@ -20,6 +20,12 @@ struct DecodedMesh {
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<uint64_t, 3>> faces;
   bool is_float = false;  ///< the scan had floats, or integers that fit into one
+  /// Vertices and faces stand in the scan's order (encode --keep-order): the last layer is decoded,
+  /// and the file is not cut behind it.
+  bool has_scan_order = false;
+  /// Where the scan had faces of more than three corners, and they are known: the first triangle of
+  /// each of its faces. Those of a face are (a, b, c), (a, c, d), (a, d, e) ... Else empty.
+  std::vector<uint64_t> polygon_begin = {};
   std::vector<DecodedAttribute> attributes = {};  ///< in the order of the scan
 };
 
@@ -39,7 +45,8 @@ class MemoryDecoder {
   size_t complete_layers() const;  ///< whole in the bytes given
   size_t decoded_layers() const;
   double error_bound() const;  ///< of the last decoded layer, model units
-  /// Decodes one more layer. kCorrupt when it is damaged or cut; the mesh then stays that of the
+  /// Decodes one more layer, and with the last one what the file tells of the scan's order and
+  /// polygons. kCorrupt when it is damaged or cut; the mesh then stays that of the
   /// layers before only if nothing of the layer was applied, so stop using the decoder.
   Result<void> DecodeNextLayer();
   /// The mesh of the layers decoded so far (at least one).

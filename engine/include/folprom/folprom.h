@@ -30,12 +30,19 @@ struct BitCounts {
   double attributes = 0;  ///< of the vertices, but for those of each subtree's first vertex
 };
 
+/// What a file keeps of its scan behind the last layer.
+struct SectionInfo {
+  bool is_kept = false;
+  uint64_t bytes = 0;  ///< unknown, 0, where the last table is missing
+};
+
 /// Outcome of EncodeFile. Warnings are sentences for the user (polygons triangulated, properties
 /// not coded, ...).
 struct EncodeReport {
   uint64_t vertices = 0;
   uint64_t faces = 0;
   uint64_t bytes = 0;
+  uint64_t order_bytes = 0, polygon_bytes = 0;  ///< of these, what the order and the polygons take
   uint64_t subtrees = 0;
   uint64_t layers = 0;
   uint64_t spill_bytes = 0;               ///< temporary disk used at the peak
@@ -116,7 +123,7 @@ struct ExactInfo {
 struct FileInfo {
   uint32_t format_version = 0;
   uint64_t vertices = 0;
-  uint64_t faces = 0;
+  uint64_t faces = 0;          ///< triangles
   uint64_t bytes = 0;          ///< as announced; of a cut file, as far as its tables are there
   uint64_t bytes_present = 0;  ///< fewer when the file is cut
   uint64_t layers_present = 0;
@@ -128,8 +135,11 @@ struct FileInfo {
   CodecSettings codec;
   std::vector<AttributeInfo> attributes;  ///< of the vertices; without bits unless has_bits
   std::vector<std::string> remarks;       ///< lines "comment" and "obj_info" of the scan
-  std::vector<LayerInfo> layers;          ///< whose table is there
-  bool has_bits = false;                  ///< what follows is known: the last table is there
+  SectionInfo order;              ///< of vertices and faces, and the first corner of each face
+  SectionInfo polygons;           ///< faces of more than three corners
+  uint64_t scan_faces = 0;        ///< where either is kept, and the last table is there
+  std::vector<LayerInfo> layers;  ///< whose table is there
+  bool has_bits = false;          ///< what follows is known: the last table is there
   /// Bits per vertex of the original by kind.
   double split = 0, offsets = 0, refinement = 0, connectivity = 0, exceptions = 0, seams = 0;
   uint64_t table_bytes = 0, checksum_bytes = 0, flush_bytes = 0;
@@ -147,13 +157,14 @@ struct VerifyReport {
   uint64_t vertices = 0;
   uint64_t faces = 0;
   uint64_t attributes = 0;  ///< of the vertices, that were compared (against only)
+  bool order_kept = false;  ///< vertices and faces come back in the scan's order
   std::string reason;       ///< why not lossless; empty otherwise
 };
 
 /// Decodes everything and compares it with the digest of the file and, when `original` is not
-/// empty, vertex by vertex and face by face with that scan: of an exact file, and attributes in
-/// any, bit by bit. What an encoding left out by its settings is not compared. A cut file is not
-/// lossless.
+/// empty, vertex by vertex and face by face with that scan, in its order where the file keeps it:
+/// of an exact file, and attributes in any, bit by bit. What an encoding left out by its settings
+/// is not compared. A cut file is not lossless.
 Result<VerifyReport> VerifyFile(const std::string& input, const std::string& original,
                                 const DecodeOptions& options, parallel::Runner& runner,
                                 parallel::Progress& progress);

@@ -117,6 +117,9 @@ struct EncodeOptions {
   /// The scalar properties that vertices have beside x, y and z come back bit for bit, and so do
   /// comments. Only with Offsets::kLattice. false: they are dropped.
   bool attributes = true;
+  /// Vertices and faces come back in the scan's order, and each face with its first corner first;
+  /// no more than 1,431,655,765 of either. Only with Offsets::kLattice.
+  bool keep_order = false;
   Limits limits;                 ///< of the scan; the memory never alters bytes
   std::string temporary_folder;  ///< empty: $TMPDIR or /tmp
   bool overwrite = false;        ///< may replace the output

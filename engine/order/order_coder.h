@@ -1,0 +1,61 @@
+// The order section: vertices, then faces, in blocks; what both directions share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "engine/order/face_walk.h"
+#include "engine/order/order_mesh.h"
+#include "engine/order/sweep.h"
+#include "engine/order/vertex_walk.h"
+#include "engine/order/work_space.h"
+
+namespace folprom {
+
+/// Vertices or faces whose bits are a block. The models run on from block to block.
+inline constexpr uint32_t kOrderBlock = 65536;
+
+/// Of a vertex at its place in the scan's order.
+uint64_t OrderDigest(uint64_t place, const Int3& position);
+/// Of a face there; of its vertices the places.
+uint64_t OrderDigest(uint64_t place, const Face& places);
+
+/// First all vertices, then all faces are coded, each block with a segment of the coder.
+class OrderCoder {
+ public:
+  /// sequence, place_of: as of VertexWalk.
+  OrderCoder(const OrderMesh& mesh, std::span<uint32_t> sequence, std::span<uint32_t> place_of,
+             WorkSpace& space)
+      : mesh_(mesh), sequence_(sequence), place_of_(place_of), space_(space) {}
+
+  /// Vertices of the next block; 0: all are done.
+  uint32_t NextVertices() const { return Next(vertices_done_, mesh_.vertex_count()); }
+  template <class Coder>
+  void CodeVertices(Coder& coder);
+
+  /// Faces of the next block; 0: all are done.
+  uint32_t NextFaces() const { return Next(faces_done_, mesh_.face_count()); }
+  /// faces: as of FaceWalk, as many as NextFaces.
+  template <class Coder>
+  void CodeFaces(Coder& coder, std::span<Face> faces);
+
+  /// Of all that was coded so far.
+  uint64_t digest() const { return digest_; }
+
+ private:
+  static uint32_t Next(uint32_t done, uint32_t all) { return std::min(all - done, kOrderBlock); }
+  void DigestVertices(uint32_t begin, uint32_t end);
+  void DigestFaces(std::span<const Face> faces);
+
+  const OrderMesh& mesh_;
+  std::span<uint32_t> sequence_, place_of_;
+  WorkSpace& space_;
+  uint32_t vertices_done_ = 0, faces_done_ = 0;
+  std::optional<VertexWalk> vertices_;
+  std::optional<FaceWalk> faces_;
+  uint64_t digest_ = 0;
+};
+
+}  // namespace folprom

@@ -1,0 +1,128 @@
+#include "engine/verify_sections.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "folprom/float_bits.h"
+
+namespace folprom {
+namespace {
+
+void CompareVertices(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource& source,
+                     parallel::Progress& progress, VerifyReport* report) {
+  CoordinateCheck check(file);
+  const bool has_attributes = !file.table().schema.attributes.empty();
+  bool same_attributes = true;
+  std::vector<double> xyz, decoded;
+  std::vector<uint8_t> values, decoded_values;
+  const size_t blocks = source.vertex_block_count();
+  progress.StartStage("compare vertices", blocks);
+  for (size_t b = 0; b < blocks; ++b) {
+    progress.ThrowIfCancelled();
+    source.ReadVertexBlock(b, &xyz).value();
+    mesh.ReadVertices(source.vertex_block_begin(b), xyz.size() / 3, &decoded, &decoded_values);
+    for (size_t i = 0; i < xyz.size(); ++i) check.Add(decoded[i], xyz[i]);
+    if (has_attributes) {
+      source.ReadVertexAttributes(b, &values).value();
+      same_attributes &= values == decoded_values;
+    }
+    source.DropResident();
+    progress.Advance(1);
+  }
+  report->max_position_error = check.largest_error;
+  CoordinateCheck::Judge(file, check.same_bits, report);
+  report->attributes = file.table().schema.attributes.size();
+  if (report->reason.empty() && !same_attributes) {
+    report->reason = "an attribute differs from that of the scan in its bits";
+  }
+}
+
+/// Gives out the faces of a decoded mesh one at a time.
+class FaceStream {
+ public:
+  explicit FaceStream(OrderedMesh& mesh) : mesh_(mesh) {}
+  /// The next triangle and its join; false at the end.
+  bool Next(Face* face, bool* is_joined) {
+    if (at_ == chunk_.triangles.size()) {
+      at_ = 0;
+      if (!mesh_.ReadFaces(&chunk_)) return false;
+    }
+    *face = chunk_.triangles[at_];
+    *is_joined = !chunk_.joins.empty() && chunk_.joins[at_] != 0;
+    ++at_;
+    return true;
+  }
+
+ private:
+  OrderedMesh& mesh_;
+  FaceChunk chunk_;
+  size_t at_ = 0;
+};
+
+void CompareFaces(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource& source,
+                  parallel::Progress& progress, VerifyReport* report) {
+  const bool has_polygons = file.table().Section(io::SectionKind::kPolygons).has_value();
+  FaceStream stream(mesh);
+  std::vector<io::Triangle> triangles;
+  std::vector<uint8_t> joins;
+  const size_t blocks = source.triangle_block_count();
+  progress.StartStage("compare faces", blocks);
+  bool alike = true;
+  Face face{};
+  bool is_joined = false;
+  for (size_t b = 0; b < blocks && alike; ++b) {
+    progress.ThrowIfCancelled();
+    source.ReadPolygonBlock(b, &triangles, &joins).value();
+    for (size_t i = 0; i < triangles.size() && alike; ++i) {
+      alike = stream.Next(&face, &is_joined);
+      for (size_t c = 0; c < 3; ++c) alike &= triangles[i][c] == face[c];
+      if (has_polygons) alike &= (joins[i] != 0) == is_joined;
+    }
+    source.DropResident();
+    progress.Advance(1);
+  }
+  if (!alike || stream.Next(&face, &is_joined)) {
+    report->reason = "the faces of scan and file differ, or their order";
+  }
+}
+
+}  // namespace
+
+void CoordinateCheck::Add(double decoded, double original) {
+  if (is_float) decoded = WidenFloat(std::bit_cast<float>(NarrowToFloatBits(decoded)));
+  if (std::bit_cast<uint64_t>(decoded) == std::bit_cast<uint64_t>(original)) return;
+  same_bits = false;
+  // A NaN would be lost among the errors of other vertices.
+  const double error = std::fabs(decoded - original);
+  largest_error = std::max(largest_error,
+                           std::isfinite(error) ? error : std::numeric_limits<double>::infinity());
+}
+
+void CoordinateCheck::Judge(const FolpFile& file, bool same_bits, VerifyReport* report) {
+  if (file.lattice().exact) {
+    if (!same_bits) report->reason = "a coordinate differs from that of the scan in its bits";
+    return;
+  }
+  // The last digits of the subtraction itself are no error of the coder.
+  if (report->max_position_error > report->tolerance * (1 + 1e-9)) {
+    report->reason = "a position is off by more than the tolerance";
+  }
+}
+
+void CheckSections(OrderedMesh& mesh) {
+  mesh.Finish();
+  FaceChunk chunk;
+  while (mesh.ReadFaces(&chunk)) {
+  }
+}
+
+void CompareInOrder(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource& source,
+                    parallel::Progress& progress, VerifyReport* report) {
+  mesh.Finish();
+  CompareVertices(file, mesh, source, progress, report);
+  if (report->reason.empty()) CompareFaces(file, mesh, source, progress, report);
+}
+
+}  // namespace folprom

@@ -58,13 +58,16 @@ std::array<double, 3> SampledSides(const io::MeshSource& source) {
 /// do; at least 1.
 double SpacingInSteps(const io::MeshSource& source, const EncodeOptions& options) {
   const auto [a, b, c] = SampledSides(source);
-  if (!(a > 0) || source.vertex_count() == 0) return 1;
+  if (!(a > 0) || !std::isfinite(a) || source.vertex_count() == 0) return 1;
   constexpr double kExactSteps = 1 << 20;  // decimals of common scans are about as fine
-  double step = a / static_cast<double>((uint64_t{1} << options.bits) - 1);
-  if (options.tolerance > 0) step = 2 * options.tolerance;
-  if (options.exact) step = a / kExactSteps;
-  const double area = std::max(a * b + b * c + c * a, a * a / 100);
-  return std::max(std::sqrt(area / static_cast<double>(source.vertex_count())) / step, 1.0);
+  constexpr double kMostSteps = 1 << 30;   // the working lattice has no more
+  // In sides of a, so that nothing overflows or vanishes whatever the unit.
+  double step = 1 / static_cast<double>((uint64_t{1} << options.bits) - 1);
+  if (options.tolerance > 0) step = 2 * (options.tolerance / a);
+  if (options.exact) step = 1 / kExactSteps;
+  const double area = std::max(b / a + b / a * (c / a) + c / a, 0.01);
+  const double spacing = std::sqrt(area / static_cast<double>(source.vertex_count()));
+  return std::clamp(spacing / step, 1.0, kMostSteps);
 }
 
 std::string Text(uint64_t bytes) {

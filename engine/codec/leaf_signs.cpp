@@ -23,7 +23,8 @@ LeafSigns LeafSignsOf(SubtreeLod& lod, uint32_t set, double spacing) {
     signs.leaf_distance = signs.leaf_distance / signs.leaves;
     signs.leaf_spacing = signs.leaf_spacing / signs.leaves;
   }
-  signs.bend = lod.HeightRange(set) / spacing;
+  // Neighbours at the same place have no height either.
+  signs.bend = spacing > 0 ? lod.HeightRange(set) / spacing : 0;
   return signs;
 }
 

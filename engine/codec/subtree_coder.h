@@ -79,6 +79,7 @@ class SubtreeCoder {
   template <class Coder>
   void CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
   /// Splits sets down to a spacing; 0: all.
+  void PrefetchBehind(size_t place, double least_spacing) const;
   template <class Coder>
   void CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth, CostMeters* meters);
   /// A step that does not ask, down to a spacing.

@@ -19,10 +19,15 @@ double SubtreeLod::Spacing(uint32_t set) const {
   return sum / static_cast<double>(spokes.size());
 }
 
-void SubtreeLod::Prefetch(uint32_t next, uint32_t later) const {
-  complex.PrefetchStar(later);
-  complex.PrefetchFaces(next);
-  for (const auto& spoke : complex.Spokes(next)) __builtin_prefetch(&positions[spoke.target]);
+void SubtreeLod::PrefetchRecord(uint32_t set) const {
+  __builtin_prefetch(&sets[set]);
+  __builtin_prefetch(&positions[set]);
+  complex.PrefetchVertex(set);
+}
+
+void SubtreeLod::PrefetchRing(uint32_t set) const {
+  complex.PrefetchFaces(set);
+  for (const auto& spoke : complex.Spokes(set)) __builtin_prefetch(&positions[spoke.target]);
 }
 
 const std::vector<Int3>& SubtreeLod::Ring(uint32_t set) {

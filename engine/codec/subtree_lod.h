@@ -29,8 +29,11 @@ class SubtreeLod {
   std::vector<SetRecord> sets;
 
   size_t size() const { return positions.size(); }
-  /// Asks for the memory of sets that will be looked at after the present one: `next` first.
-  void Prefetch(uint32_t next, uint32_t later) const;
+  /// Asks for the memory of a set that will be looked at: of its record, once that is there of
+  /// its star, and then of its ring. Each reads what the one before has asked for.
+  void PrefetchRecord(uint32_t set) const;
+  void PrefetchStar(uint32_t set) const { complex.PrefetchStar(set); }
+  void PrefetchRing(uint32_t set) const;
   /// Mean distance to the neighbours, without any the set's scale; lattice units.
   double Spacing(uint32_t set) const;
   /// Positions of the neighbours, valid until the next call.

@@ -52,6 +52,18 @@ void SubtreeCoder::BeginRounds(double least_spacing) {
   }
 }
 
+void SubtreeCoder::PrefetchBehind(size_t place, double least_spacing) const {
+  constexpr size_t kRecord = 9, kStar = 6, kRing = 3;
+  const auto is_due = [&](uint32_t set) {
+    const SetRecord& record = lod_.sets[set];
+    return !record.is_leaf && static_cast<double>(record.spacing) >= least_spacing;
+  };
+  if (place + kRecord >= open_.size()) return;
+  lod_.PrefetchRecord(open_[place + kRecord]);
+  if (is_due(open_[place + kStar])) lod_.PrefetchStar(open_[place + kStar]);
+  if (is_due(open_[place + kRing])) lod_.PrefetchRing(open_[place + kRing]);
+}
+
 template <class Coder>
 void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth,
                              CostMeters* meters) {
@@ -60,7 +72,7 @@ void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* t
   size_t kept = 0;
   for (size_t i = 0; i < open_.size(); ++i) {
     const uint32_t set = open_[i];
-    if (i + 2 < open_.size()) lod_.Prefetch(open_[i + 1], open_[i + 2]);
+    PrefetchBehind(i, least_spacing);
     SetRecord& record = lod_.sets[set];
     if (record.is_leaf) continue;
     // Spacings fall as neighbours split, so one that was too small before is not measured again.

@@ -26,7 +26,8 @@ class BlockLists {
   }
   T& At(uint32_t list, uint32_t place) { return ValuesOf(lists_[list])[place]; }
 
-  /// Asks for the memory that Of will read; says so early.
+  /// Asks for the memory that Prefetch will read, and that Of will; say so early.
+  void PrefetchList(uint32_t list) const { __builtin_prefetch(&lists_[list]); }
   void Prefetch(uint32_t list) const { __builtin_prefetch(ValuesOf(lists_[list])); }
 
   /// Returns the place of the value.

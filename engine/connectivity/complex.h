@@ -71,7 +71,12 @@ class Complex {
   /// Valid until the next change.
   std::span<const Spoke> Spokes(uint32_t vertex) const { return spokes_.Of(vertex); }
   std::span<const uint32_t> Corners(uint32_t vertex) const { return corners_of_.Of(vertex); }
-  /// Asks for the memory of what surrounds a vertex, and, once that is there, of its faces.
+  /// Asks for the memory of where a vertex's lists are, once that is there of the lists, and then
+  /// of the faces.
+  void PrefetchVertex(uint32_t vertex) const {
+    spokes_.PrefetchList(vertex);
+    corners_of_.PrefetchList(vertex);
+  }
   void PrefetchStar(uint32_t vertex) const {
     spokes_.Prefetch(vertex);
     corners_of_.Prefetch(vertex);

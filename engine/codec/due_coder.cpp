@@ -14,7 +14,7 @@ constexpr double kWaitingPerDue = 1.6;
 /// It ends when so few are due.
 constexpr double kLeastDue = 0.02;
 /// Or when so many times the always asked are live.
-constexpr double kMostAsked = 3;
+constexpr double kMostAsked = 4;
 
 }  // namespace
 

@@ -204,7 +204,7 @@ Result<EncodeEstimate> EstimateEncode(const std::string& input, const EncodeOpti
                                       parallel::Runner& runner, parallel::Progress& progress) {
   return RunGuarded<EncodeEstimate>([&] {
     CheckOptions(options).value();
-    const auto source = io::MeshSource::Open(input).value();
+    const auto source = io::MeshSource::Open(input, options.limits).value();
     EncodeEstimate estimate;
     estimate.vertices = source->vertex_count();
     estimate.faces = source->triangle_count();

@@ -58,9 +58,10 @@ SectionInfo SectionOf(const io::FileTable& table, io::SectionKind kind) {
 
 }  // namespace
 
-Result<FileInfo> ReadInfo(const std::string& input) {
+Result<FileInfo> ReadInfo(const std::string& input, const Limits& limits) {
   return RunGuarded<FileInfo>([&] {
     FolpFile file(input, Extent::kPart);
+    file.CheckLimits(limits);
     const io::FileTable& table = file.table();
     FileInfo info;
     info.format_version = io::kFormatVersion;

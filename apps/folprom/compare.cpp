@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/folprom/limit_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/report.h"
 #include "apps/folprom/session.h"
@@ -25,6 +26,7 @@ constexpr const char* kDescription =
 struct CompareFlags {
   CommonFlags common;
   WorkFlags work;
+  LimitFlags limits;
   std::string a;
   std::string b;
   std::optional<uint64_t> samples;
@@ -64,6 +66,7 @@ void PrintReport(const CompareFlags& flags, const Comparison& comparison, double
 int Run(const CompareFlags& flags) {
   CompareOptions options;
   options.samples = flags.samples.value_or(0);
+  flags.limits.ApplyTo(&options.limits);
   options.temporary_folder = flags.work.temporary_folder.value_or("");
   const auto runner = MakeRunner(flags.work, flags.work.threads.value_or(0));
   Session session(flags.common);
@@ -86,6 +89,7 @@ Verb AddCompare(CLI::App& program) {
   AddCountOption(verb, "--samples", &flags->samples,
                  "Points on the area of each mesh; else ten per face, 500k .. 10M");
   AddThreadFlags(verb, &flags->work);
+  AddLimitFlag(verb, &flags->limits);
   AddCommonFlags(verb, &flags->common);
   AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);

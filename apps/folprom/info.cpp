@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "apps/folprom/limit_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/report.h"
 #include "apps/folprom/session.h"
@@ -24,6 +25,7 @@ constexpr const char* kDescription =
 
 struct InfoFlags {
   CommonFlags common;
+  LimitFlags limits;
   std::string input;
 };
 
@@ -177,7 +179,9 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
 
 int Run(const InfoFlags& flags) {
   Session session(flags.common);
-  const FileInfo info = ReadInfo(flags.input).value();
+  Limits limits;
+  flags.limits.ApplyTo(&limits);
+  const FileInfo info = ReadInfo(flags.input, limits).value();
   session.StopDisplay();
   if (flags.common.json) {
     PrintJson(InfoJson(info));
@@ -198,3 +202,4 @@ Verb AddInfo(CLI::App& program) {
 }
 
 }  // namespace folprom::cli
+  AddLimitFlag(verb, &flags->limits);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "apps/folprom/config.h"
+#include "apps/folprom/limit_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/rd_curve.h"
 #include "apps/folprom/report.h"
@@ -28,6 +29,7 @@ constexpr const char* kDescription =
 struct RdFlags {
   CommonFlags common;
   WorkFlags work;
+  LimitFlags limits;
   std::string scan;
   std::string config;
   std::optional<uint32_t> bits;
@@ -44,6 +46,7 @@ EncodeConfig Settings(const RdFlags& flags) {
     config.options.bits = *flags.bits;
     config.options.tolerance = 0;
   }
+  flags.limits.ApplyTo(&config.options.limits);
   if (flags.work.threads) config.threads = *flags.work.threads;
   if (flags.work.temporary_folder) config.options.temporary_folder = *flags.work.temporary_folder;
   CheckConfig(config).value();
@@ -97,6 +100,7 @@ Verb AddRd(CLI::App& program) {
       ->type_name("OUT");
   verb->add_flag("-f,--force", flags->force, "May replace the outputs");
   AddThreadFlags(verb, &flags->work);
+  AddLimitFlag(verb, &flags->limits);
   AddCommonFlags(verb, &flags->common);
   AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/folprom/limit_flags.h"
 #include "apps/folprom/lod_flags.h"
 #include "apps/folprom/options.h"
 #include "apps/folprom/rd_curve.h"
@@ -44,6 +45,7 @@ constexpr size_t kMostRates = 11;
 struct RenderFlags {
   CommonFlags common;
   WorkFlags work;
+  LimitFlags limits;
   LodFlags lod;
   std::string input;
   std::string output;
@@ -102,6 +104,7 @@ render::PictureOptions Settings(const RenderFlags& flags) {
   if (!flags.up.empty()) options.view.up = static_cast<size_t>(flags.up.front() - 'x');
   options.style = flags.style;
   flags.lod.ApplyTo(&options.decode);
+  flags.limits.ApplyTo(&options.decode.limits);
   options.decode.limits.memory_bytes =
       flags.work.memory.value_or(options.decode.limits.memory_bytes);
   options.decode.temporary_folder = flags.work.temporary_folder.value_or("");
@@ -244,6 +247,7 @@ Verb AddRender(CLI::App& program) {
   AddSheetFlags(verb, flags.get());
   AddViewFlags(verb, flags.get());
   AddWorkFlags(verb, &flags->work);
+  AddLimitFlag(verb, &flags->limits);
   AddCommonFlags(verb, &flags->common);
   AddProgressFlag(verb, &flags->common);
   AddRunnerFlag(verb, &flags->work);

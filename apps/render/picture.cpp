@@ -27,10 +27,10 @@ Box BoxOf(const measure::TriangleMesh& mesh) {
   return box;
 }
 
-Box BoxFor(const std::string& path, const measure::TriangleMesh& mesh) {
+Box BoxFor(const std::string& path, const measure::TriangleMesh& mesh, const Limits& limits) {
   Box box;
   if (measure::IsFolp(path)) {
-    const FileInfo info = ReadInfo(path).value();
+    const FileInfo info = ReadInfo(path, limits).value();
     box = {info.box_lo, info.box_hi};
   } else {
     box = BoxOf(mesh);
@@ -85,7 +85,7 @@ Picture Draw(const std::string& path, const PictureOptions& options, parallel::R
                 options.decode.limits.memory_bytes);
   };
   measure::TriangleMesh mesh = measure::ReadMesh(path, read, runner, progress);
-  picture.box = options.box ? *options.box : BoxFor(path, mesh);
+  picture.box = options.box ? *options.box : BoxFor(path, mesh, options.decode.limits);
   const Camera camera(picture.box, options.view, options.width, options.height);
   const Scene scene(std::move(mesh), camera, runner, progress);
   picture.image = Render(scene, camera, options.style, runner, progress);

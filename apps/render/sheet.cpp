@@ -92,7 +92,7 @@ Sheet DrawSheet(const std::string& path, const PictureOptions& options,
     throw Failure(ErrorKind::kUsage,
                   path + ": is no .folp file; a sheet shows the levels of detail of one");
   }
-  const FileInfo info = ReadInfo(path).value();
+  const FileInfo info = ReadInfo(path, options.decode.limits).value();
   Sheet sheet;
   const auto finest = static_cast<uint32_t>(std::min(info.layers_present, info.layers.size()));
   std::vector<uint32_t> levels =

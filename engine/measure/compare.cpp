@@ -54,6 +54,7 @@ Result<Comparison> CompareFiles(const std::string& a, const std::string& b,
                                 parallel::Progress& progress) {
   return RunGuarded<Comparison>([&] {
     measure::ReadOptions read;
+    read.decode.limits = options.limits;
     read.decode.temporary_folder = options.temporary_folder;
     measure::TriangleMesh first = measure::ReadMesh(a, read, runner, progress);
     measure::TriangleMesh second = measure::ReadMesh(b, read, runner, progress);

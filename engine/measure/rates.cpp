@@ -25,7 +25,7 @@ class RateJob {
   RateCurve Run(std::span<const double> rates) {
     const EncodeReport report = EncodeFile(scan_, encoded_, options_, runner_, progress_).value();
     RateCurve curve{report.vertices, report.faces, report.bytes, {}, report.warnings};
-    const FileInfo info = ReadInfo(encoded_).value();
+    const FileInfo info = ReadInfo(encoded_, options_.limits).value();
     measure::Original original(Mesh(scan_), scan_, runner_, progress_);
     for (const double rate : rates) {
       RatePoint point = Decoded(rate);
@@ -64,7 +64,9 @@ class RateJob {
   }
 
   measure::TriangleMesh Mesh(const std::string& path) const {
-    return measure::ReadMesh(path, {}, runner_, progress_);
+    measure::ReadOptions read;
+    read.decode.limits = options_.limits;
+    return measure::ReadMesh(path, read, runner_, progress_);
   }
 
   std::string Decoding() const { return folder_.File("decoded.ply"); }

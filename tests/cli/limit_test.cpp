@@ -22,6 +22,13 @@ TEST_F(Limit, RefusesWhatIsLargerInEachVerbThatReads) {
   ExpectError({"verify", Path("s.folp"), "--limit", "vertices=100"}, 6, reason);
   ExpectError({"verify", Path("s.folp"), "--against", Path("s.ply"), "--limit", "header=100"}, 6,
               "the limit of a header");
+  ExpectError({"info", Path("s.folp"), "--limit", "vertices=100"}, 6, reason);
+  for (const char* file : {"s.ply", "s.folp"}) {
+    ExpectError({"compare", Path("s.ply"), Path(file), "--limit", "vertices=100"}, 6, reason);
+    ExpectError({"render", Path(file), "-o", Path("t.png"), "--limit", "vertices=100"}, 6, reason);
+  }
+  ExpectError({"rd", Path("s.ply"), "-o", Path("t"), "--limit", "vertices=100"}, 6, reason);
+  ExpectError({"encode", Path("s.ply"), "--estimate", "--limit", "vertices=100"}, 6, reason);
   EXPECT_EQ(Files(), before);
 }
 

@@ -146,7 +146,8 @@ struct FileInfo {
   double overhead = 0;  ///< (tables + checksums + flushes) / bytes
 };
 
-Result<FileInfo> ReadInfo(const std::string& input);
+/// limits: of the mesh in the file.
+Result<FileInfo> ReadInfo(const std::string& input, const Limits& limits = {});
 
 struct VerifyReport {
   bool lossless = false;

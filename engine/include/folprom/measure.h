@@ -34,6 +34,7 @@ struct Comparison {
 struct CompareOptions {
   uint64_t samples = 0;          ///< 0: ten per face of the finer mesh, 500,000 .. 10,000,000
   std::string temporary_folder;  ///< for the decoded .folp files; empty: $TMPDIR or /tmp
+  Limits limits;                 ///< of both meshes
 };
 
 /// Compares two mesh or .folp files. The surface is the faces; of a mesh without faces, the

@@ -39,7 +39,9 @@ void ContainerReader::Load(std::span<const uint8_t> bytes, std::string name) {
 }
 
 void ContainerReader::LoadTables() {
-  TableDecoder decoder(name_);
+  // Half of what an input may take.
+  constexpr uint64_t kTableBytes = uint64_t{32} << 20, kTableBytesPerByte = 32;
+  TableDecoder decoder(name_, kTableBytes + kTableBytesPerByte * bytes_.size());
   const auto first = TableBytes(bytes_, name_);
   header_bytes_ = kTableBegin + first.size() + kHeaderChecksumBytes;
   decoder.Decode(first, kTableBegin);

@@ -68,6 +68,7 @@ void WriteSizes(std::span<const uint64_t> sizes, const SizeGrid& grid, BitWriter
 void ReadSizes(const SizeGrid& grid, const ByteReader& in, BitReader* bits,
                std::vector<uint64_t>* sizes) {
   const size_t known = grid.subtrees == 0 ? 0 : sizes->size() / (grid.subtrees * 2);
+  sizes->reserve((known + grid.layers) * grid.subtrees * 2);  // and no more
   sizes->resize((known + grid.layers) * grid.subtrees * 2);
   for (size_t part = 0; part < grid.parts(); ++part) {
     const int order = ReadOrder(bits);

@@ -21,6 +21,9 @@ constexpr uint64_t kLeastSubtreeBytes = 8;
 /// on, a bit for each section.
 constexpr uint8_t kShortOrigin = 1, kExtras = 2, kFirstSection = 4;
 constexpr uint8_t kAllFlags = kFirstSection * ((1 << kSectionKinds) - 1) | kExtras | kShortOrigin;
+/// Memory of a layer of a subtree: sizes and places of two segments, and the sizes again while their
+/// array grows.
+constexpr uint64_t kPairBytes = 48;
 /// Bytes of a section that are never reached.
 constexpr uint64_t kMostSectionBytes = uint64_t{1} << 56;
 
@@ -349,6 +352,14 @@ void TableDecoder::DecodeLayers(ByteReader* in) {
   const SizeGrid grid = GridOf(table_, count);
   if (LayerBits(count) + grid.LeastBits() > uint64_t{8} * in->left()) {
     in->Fail("fewer bytes left than the layers and segment sizes need");
+  }
+  // Fewer than 2^12 layers and 2^32 subtrees.
+  const uint64_t pairs = (table_.layers.size() + count) * table_.subtrees.size();
+  if (pairs > most_bytes_ / kPairBytes) {
+    throw Failure(ErrorKind::kLimit,
+                  std::string(file_) + ": table: the sizes of " + std::to_string(2 * pairs) +
+                      " segments would take " + std::to_string(kPairBytes * pairs >> 20) +
+                      " MiB, more than a file of this length may");
   }
   BitReader bits(in);
   ReadLayers(count, *in, &bits, &table_);

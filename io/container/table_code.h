@@ -31,12 +31,15 @@ std::vector<CodedTable> EncodeTables(const FileTable& table);
 /// Puts a table together from those of a file, which come in their order.
 class TableDecoder {
  public:
-  /// file: for messages, borrowed.
-  explicit TableDecoder(std::string_view file) : file_(file) {}
+  /// file: for messages, borrowed. most_bytes: what the sizes of the segments and their places in
+  /// the file may take.
+  explicit TableDecoder(std::string_view file, uint64_t most_bytes = ~uint64_t{0})
+      : file_(file), most_bytes_(most_bytes) {}
 
   /// Reads a table that must fill `bytes` exactly. `offset` is the position of the first byte in
   /// the file. Allocates at most 128 bytes per byte of table for the sizes: a bit may hold one,
-  /// beside that of a seam segment which has none. Failure kCorrupt naming file, place and reason.
+  /// beside that of a seam segment which has none. Failure kCorrupt naming file, place and reason,
+  /// kLimit where the sizes would take more than most_bytes.
   void Decode(std::span<const uint8_t> bytes, uint64_t offset);
 
   const FileTable& table() const { return table_; }
@@ -50,6 +53,7 @@ class TableDecoder {
   void DecodeLayers(ByteReader* in);
 
   std::string_view file_;
+  uint64_t most_bytes_;
   FileTable table_;
   bool has_mesh_ = false;
   size_t layers_total_ = 0;

@@ -216,6 +216,23 @@ TEST(TableCode, RejectsATableOfNoLayerAndLayersWithoutATable) {
   EXPECT_EQ(decoder.table().layers.size(), 1u);
 }
 
+TEST(TableCode, RefusesSizesThatTakeMoreMemoryThanItMay) {
+  const FileTable table = ExampleTable();
+  const auto bytes = EncodeTable(table);
+  const uint64_t needed = 48 * table.layers.size() * table.subtrees.size();
+  TableDecoder enough("file", needed);
+  enough.Decode(bytes, 0);
+  EXPECT_EQ(enough.table(), table);
+  TableDecoder little("file", needed - 1);
+  try {
+    little.Decode(bytes, 0);
+    FAIL() << "more than it may";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.error().kind, ErrorKind::kLimit);
+    EXPECT_EQ(failure.error().message.find("file: table: the sizes of "), 0u);
+  }
+}
+
 TEST(TableCode, RejectsSettingsLongerThanTheTable) {
   auto bytes = EncodeTable(ExampleTable());
   const size_t settings = 2 + 2 + 1 + 1 + 12 + 8 + 5;

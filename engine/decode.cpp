@@ -126,6 +126,8 @@ class DecodeJob {
       DecodeRegion(&report);
     } else if (report.complete && HasWholeSections(file_.container())) {
       DecodeOrdered(&report);
+    } else if (report.complete && table.is_soup) {
+      DecodeSoup(&report);
     } else {
       DecodeAll(&report);
     }
@@ -163,6 +165,18 @@ class DecodeJob {
     Commit(*writer, report);
   }
 
+  /// Faces in the order of the file, each with vertices of its own.
+  void DecodeSoup(DecodeReport* report) {
+    const io::LayerRecord& layer = file_.table().layers[selection_.layers - 1];
+    auto writer = MakeWriter({file_.table().OutputVertices(), layer.faces});
+    SoupSink sink(file_.lattice(), layer, file_.container().name(), *writer);
+    Decode(sink);
+    sink.CheckComplete();
+    report->vertices = file_.table().OutputVertices();
+    report->faces = layer.faces;
+    Commit(*writer, report);
+  }
+
   void AddSectionBytes(DecodeReport* report) const {
     for (const auto& section : file_.table().sections) {
       if (section) report->bytes_read += section->bytes;
@@ -171,26 +185,56 @@ class DecodeJob {
 
   /// As the scan had it.
   void DecodeOrdered(DecodeReport* report) {
-    constexpr size_t kBlock = 65536;
     const io::FileTable& table = file_.table();
     io::SpillDirectory spill(options_.temporary_folder);
     OrderedMesh mesh(file_.container(), file_.lattice(), spill, options_.limits.memory_bytes);
     Decode(mesh);
     progress_.StartStage("order", table.vertices + table.faces);
     mesh.Finish();
-    io::MeshShape shape{table.vertices, table.polygons};
+    io::MeshShape shape{table.OutputVertices(), table.polygons};
     shape.triangles = table.faces;
     shape.largest_face = table.largest_face;
     auto writer = MakeWriter(shape);
+    if (table.is_soup) {
+      WriteSoup(mesh, *writer);
+    } else {
+      WriteVertices(mesh, *writer);
+      WriteFaces(mesh, *writer);
+    }
+    report->vertices = table.OutputVertices();
+    report->faces = table.polygons;
+    Commit(*writer, report);
+  }
+
+  void WriteVertices(OrderedMesh& mesh, io::MeshWriter& writer) {
+    constexpr size_t kBlock = 65536;
+    const uint64_t vertices = file_.table().vertices;
     std::vector<double> xyz;
     std::vector<uint8_t> attributes;
-    for (uint64_t begin = 0; begin < table.vertices; begin += kBlock) {
+    for (uint64_t begin = 0; begin < vertices; begin += kBlock) {
       progress_.ThrowIfCancelled();
-      const auto count = static_cast<size_t>(std::min<uint64_t>(kBlock, table.vertices - begin));
+      const auto count = static_cast<size_t>(std::min<uint64_t>(kBlock, vertices - begin));
       mesh.ReadVertices(begin, count, &xyz, &attributes);
-      writer->AppendVertices(xyz, attributes).value();
+      writer.AppendVertices(xyz, attributes).value();
       progress_.Advance(count);
     }
+  }
+
+  void WriteSoup(OrderedMesh& mesh, io::MeshWriter& writer) {
+    FaceChunk chunk;
+    std::vector<double> xyz;
+    uint64_t faces = 0;
+    while (mesh.ReadFaces(&chunk)) {
+      progress_.ThrowIfCancelled();
+      mesh.ReadCorners(chunk.triangles, &xyz);
+      writer.AppendVertices(xyz).value();
+      writer.AppendFaces(SoupFaces(faces, chunk.triangles.size())).value();
+      faces += chunk.triangles.size();
+      progress_.Advance(chunk.triangles.size());
+    }
+  }
+
+  void WriteFaces(OrderedMesh& mesh, io::MeshWriter& writer) {
     FaceChunk chunk;
     std::vector<io::Triangle> triangles;
     while (mesh.ReadFaces(&chunk)) {
@@ -198,15 +242,12 @@ class DecodeJob {
       triangles.clear();
       for (const Face& f : chunk.triangles) triangles.push_back({f[0], f[1], f[2]});
       if (chunk.joins.empty()) {
-        writer->AppendFaces(triangles).value();
+        writer.AppendFaces(triangles).value();
       } else {
-        writer->AppendPolygons(triangles, chunk.joins).value();
+        writer.AppendPolygons(triangles, chunk.joins).value();
       }
       progress_.Advance(triangles.size());
     }
-    report->vertices = table.vertices;
-    report->faces = table.polygons;
-    Commit(*writer, report);
   }
 
   void DecodeRegion(DecodeReport* report) {

@@ -28,6 +28,8 @@ BitCounts BitsOf(const CostMeters& costs) {
 EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptions& options,
                     Resume resume) {
   auto out = io::AtomicFile::Create(output, options.overwrite).value();
+  const bool is_kept = resume != Resume::kNever && !job.HasSections();
+  job.Weld(*out, is_kept ? SpillName(job.source().path(), output) : "");
   // What the sections need of each subtree is not among what is kept.
   if (resume == Resume::kNever || job.HasSections() || !job.Resume(output, resume)) {
     job.CheckRoom(*out);
@@ -50,6 +52,8 @@ EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptio
   report.order_bytes = bytes_of(io::SectionKind::kOrder);
   report.polygon_bytes = bytes_of(io::SectionKind::kPolygons);
   report.vertices = table.vertices;
+  report.scan_vertices = job.original().vertex_count();
+  report.is_soup = table.is_soup;
   report.faces = table.faces;
   report.subtrees = table.subtrees.size();
   report.layers = table.layers.size();

@@ -12,6 +12,8 @@
 #include "engine/codec/encode_subtree.h"
 #include "engine/mesh/types.h"
 #include "engine/run_guarded.h"
+#include "engine/weld/position_weld.h"
+#include "engine/weld/soup.h"
 #include "folprom/folprom.h"
 #include "io/spill/spill.h"
 #include "parallel/runner.h"
@@ -19,16 +21,15 @@
 namespace folprom {
 namespace {
 
-uint64_t SubtreesOf(const io::MeshSource& source, const EncodeOptions& options) {
+uint64_t SubtreesOf(const ExpectedScan& scan, const EncodeOptions& options) {
   // The cut leaves subtrees a little smaller than allowed.
-  const double vertices = static_cast<double>(source.vertex_count());
+  const double vertices = static_cast<double>(scan.vertices);
   const double most = static_cast<double>(options.codec.subtree_vertices);
   return vertices <= most ? 1 : static_cast<uint64_t>(std::ceil(1.08 * vertices / most));
 }
 
-uint64_t AttributeStride(const io::MeshSource& source, const EncodeOptions& options) {
-  const bool kept = options.attributes && options.codec.offsets == Offsets::kLattice;
-  return kept ? source.vertex_schema().Stride() : 0;
+uint64_t AttributeStride(const ExpectedScan& scan, const EncodeOptions& options) {
+  return KeepsAttributes(options) ? scan.source.vertex_schema().Stride() : 0;
 }
 
 /// Sides of the box of a few blocks, those that are finite, in falling order.
@@ -56,9 +57,9 @@ std::array<double, 3> SampledSides(const io::MeshSource& source) {
 
 /// Steps of the lattice between neighbouring vertices of a surface that fills the box as most scans
 /// do; at least 1.
-double SpacingInSteps(const io::MeshSource& source, const EncodeOptions& options) {
-  const auto [a, b, c] = SampledSides(source);
-  if (!(a > 0) || !std::isfinite(a) || source.vertex_count() == 0) return 1;
+double SpacingInSteps(const ExpectedScan& scan, const EncodeOptions& options) {
+  const auto [a, b, c] = SampledSides(scan.source);
+  if (!(a > 0) || !std::isfinite(a) || scan.vertices == 0) return 1;
   constexpr double kExactSteps = 1 << 20;  // decimals of common scans are about as fine
   constexpr double kMostSteps = 1 << 30;   // the working lattice has no more
   // In sides of a, so that nothing overflows or vanishes whatever the unit.
@@ -66,7 +67,7 @@ double SpacingInSteps(const io::MeshSource& source, const EncodeOptions& options
   if (options.tolerance > 0) step = 2 * (options.tolerance / a);
   if (options.exact) step = 1 / kExactSteps;
   const double area = std::max(b / a + b / a * (c / a) + c / a, 0.01);
-  const double spacing = std::sqrt(area / static_cast<double>(source.vertex_count()));
+  const double spacing = std::sqrt(area / static_cast<double>(scan.vertices));
   return std::clamp(spacing / step, 1.0, kMostSteps);
 }
 
@@ -136,52 +137,62 @@ double SecondsPerVertex(EncodeOptions options, double spacing_in_steps,
   return seconds.count() / (kSide * kSide);
 }
 
+/// Before it is welded: that a surface is closed, and has no edges that part it.
+ExpectedScan Expect(const io::MeshSource& source, const EncodeOptions& options) {
+  const WeldKind kind = WeldFor(source, options);
+  ExpectedScan scan{source, source.vertex_count(), kind != WeldKind::kAsItIs};
+  if (kind == WeldKind::kSoup || (kind == WeldKind::kSurface && IsSoup(source))) {
+    scan.vertices = source.triangle_count() / 2 + 2;
+  }
+  return scan;
+}
+
 /// Memory of one subtree under way.
-uint64_t SubtreeBytes(const io::MeshSource& source, const EncodeOptions& options) {
-  const uint64_t vertices = std::max<uint64_t>(source.vertex_count(), 1);
+uint64_t SubtreeBytes(const ExpectedScan& scan, const EncodeOptions& options) {
+  const uint64_t vertices = std::max<uint64_t>(scan.vertices, 1);
   SubtreeSummary summary;
-  summary.vertices = static_cast<uint32_t>(
-      std::min<uint64_t>(source.vertex_count(), options.codec.subtree_vertices));
-  summary.faces = static_cast<uint64_t>(static_cast<double>(source.triangle_count()) *
+  summary.vertices =
+      static_cast<uint32_t>(std::min<uint64_t>(scan.vertices, options.codec.subtree_vertices));
+  summary.faces = static_cast<uint64_t>(static_cast<double>(scan.source.triangle_count()) *
                                         summary.vertices / static_cast<double>(vertices));
   CodecParameters parameters;
   if (options.exact) parameters.exact.emplace();
-  if (AttributeStride(source, options) > 0) {
-    parameters.attributes.resize(source.vertex_schema().attributes.size());
+  if (AttributeStride(scan, options) > 0) {
+    parameters.attributes.resize(scan.source.vertex_schema().attributes.size());
   }
   return EncodeSubtreeBytes(summary, parameters);
 }
 
 /// Of the partition: what its passes keep mapped and buffered.
-uint64_t PartitionBytes(const io::MeshSource& source, const EncodeOptions& options) {
+uint64_t PartitionBytes(const ExpectedScan& scan, const EncodeOptions& options) {
   const uint64_t memory = options.limits.memory_bytes;
-  const uint64_t mapped = std::min(memory / 8, 16 * source.vertex_count()) +
-                          std::min(memory / 16, 16 * source.vertex_count()) +
-                          std::min(memory / 16, 8 * source.vertex_count());
-  const uint64_t buffers = std::min(memory / 8, SubtreesOf(source, options) * (128 << 10));
+  const uint64_t mapped = std::min(memory / 8, 16 * scan.vertices) +
+                          std::min(memory / 16, 16 * scan.vertices) +
+                          std::min(memory / 16, 8 * scan.vertices);
+  const uint64_t buffers = std::min(memory / 8, SubtreesOf(scan, options) * (128 << 10));
   return mapped + buffers;
 }
 
 }  // namespace
 
-uint64_t EstimateSpillBytes(const io::MeshSource& source, const EncodeOptions& options) {
+uint64_t EstimateSpillBytes(const ExpectedScan& scan, const EncodeOptions& options) {
   // Records of the passes, positions and the map of vertices; where a lattice may leave rests, the
   // coordinates themselves.
-  uint64_t vertex_bytes = 16 + sizeof(Int3) + sizeof(VertexRef) + AttributeStride(source, options);
+  uint64_t vertex_bytes = 16 + sizeof(Int3) + sizeof(VertexRef) + AttributeStride(scan, options);
   if (options.exact) vertex_bytes += sizeof(ExactPosition);
   // Cross faces, in two subtrees each or three: a border grows with the root of the vertices.
-  const uint64_t subtrees = SubtreesOf(source, options);
+  const uint64_t subtrees = SubtreesOf(scan, options);
   const auto border = static_cast<uint64_t>(
       subtrees == 1 ? 0 : 10 * std::sqrt(static_cast<double>(options.codec.subtree_vertices)));
-  return source.vertex_count() * vertex_bytes + source.triangle_count() * sizeof(Face) +
+  return scan.vertices * vertex_bytes + scan.source.triangle_count() * sizeof(Face) +
          subtrees * border * sizeof(CrossFace);
 }
 
-uint64_t EstimateFileBytes(const io::MeshSource& source, const EncodeOptions& options) {
+uint64_t EstimateFileBytes(const ExpectedScan& scan, const EncodeOptions& options) {
   const double bits =
-      6 + 2.2 * std::log2(SpacingInSteps(source, options)) + (options.exact ? 6 : 0) +
-      4 * static_cast<double>(AttributeStride(source, options));  // half of what they have
-  return static_cast<uint64_t>(bits / 8 * static_cast<double>(source.vertex_count())) + 1024;
+      6 + 2.2 * std::log2(SpacingInSteps(scan, options)) + (options.exact ? 6 : 0) +
+      4 * static_cast<double>(AttributeStride(scan, options));  // half of what they have
+  return static_cast<uint64_t>(bits / 8 * static_cast<double>(scan.vertices)) + 1024;
 }
 
 void CheckRoom(const RoomNeeded& spill, const RoomNeeded& output) {
@@ -206,18 +217,25 @@ Result<EncodeEstimate> EstimateEncode(const std::string& input, const EncodeOpti
     CheckOptions(options).value();
     const auto source = io::MeshSource::Open(input, options.limits).value();
     EncodeEstimate estimate;
-    estimate.vertices = source->vertex_count();
+    const ExpectedScan scan = Expect(*source, options);
+    estimate.vertices = scan.vertices;
     estimate.faces = source->triangle_count();
-    estimate.spill_bytes = EstimateSpillBytes(*source, options);
-    estimate.file_bytes = EstimateFileBytes(*source, options);
+    estimate.spill_bytes = EstimateSpillBytes(scan, options);
+    if (scan.is_welded) {
+      // What is left of the weld is there while the rest of the work is done.
+      estimate.spill_bytes =
+          std::max(WeldSpillBytes(*source), estimate.spill_bytes +
+                                                source->vertex_count() * sizeof(uint64_t) +
+                                                scan.vertices * sizeof(ExactPosition));
+    }
+    estimate.file_bytes = EstimateFileBytes(scan, options);
     constexpr uint64_t kProgramBytes = uint64_t{40} << 20;
-    const uint64_t one = SubtreeBytes(*source, options);
+    const uint64_t one = SubtreeBytes(scan, options);
     const uint64_t at_once = std::clamp<uint64_t>(
         options.limits.memory_bytes * 3 / 4 / one, 1,
-        std::min(SubtreesOf(*source, options), static_cast<uint64_t>(runner.threads())));
-    estimate.memory_bytes =
-        kProgramBytes + std::max(at_once * one, PartitionBytes(*source, options));
-    const double per_vertex = SecondsPerVertex(options, SpacingInSteps(*source, options), progress);
+        std::min(SubtreesOf(scan, options), static_cast<uint64_t>(runner.threads())));
+    estimate.memory_bytes = kProgramBytes + std::max(at_once * one, PartitionBytes(scan, options));
+    const double per_vertex = SecondsPerVertex(options, SpacingInSteps(scan, options), progress);
     estimate.seconds =
         per_vertex * static_cast<double>(estimate.vertices) / static_cast<double>(at_once);
     return estimate;

@@ -10,11 +10,18 @@
 
 namespace folprom {
 
-/// Temporary disk at the peak, which is the end of the partition.
-uint64_t EstimateSpillBytes(const io::MeshSource& source, const EncodeOptions& options);
+/// A scan, and how many vertices of it are coded.
+struct ExpectedScan {
+  const io::MeshSource& source;
+  uint64_t vertices = 0;
+  bool is_welded = false;  ///< before that
+};
+
+/// Temporary disk at the peak, which is the end of the partition; without the weld.
+uint64_t EstimateSpillBytes(const ExpectedScan& scan, const EncodeOptions& options);
 
 /// Bytes of the output. Reads a few blocks of the scan.
-uint64_t EstimateFileBytes(const io::MeshSource& source, const EncodeOptions& options);
+uint64_t EstimateFileBytes(const ExpectedScan& scan, const EncodeOptions& options);
 
 /// A folder, its disk, and what is to be written there.
 struct RoomNeeded {

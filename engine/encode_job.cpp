@@ -8,6 +8,7 @@
 #include "engine/codec/border_file.h"
 #include "engine/encode_estimate.h"
 #include "engine/exact_resolution.h"
+#include "engine/weld/soup.h"
 #include "io/container/checksum.h"
 #include "io/container/writer.h"
 #include "parallel/memory_budget.h"
@@ -47,10 +48,36 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
   spill_ = std::make_unique<io::SpillDirectory>(options.temporary_folder);
 }
 
+void EncodeJob::Weld(const io::AtomicFile& out, const std::string& spill_name) {
+  const WeldKind kind = WeldFor(*source_, options_);
+  if (kind == WeldKind::kAsItIs) return;
+  is_soup_ = kind == WeldKind::kSoup;
+  std::unique_ptr<io::SpillDirectory> spill;
+  if (!spill_name.empty()) {
+    spill = io::SpillDirectory::OpenNamed(options_.temporary_folder, spill_name + "-weld");
+  }
+  // Where the same job runs at this moment.
+  if (!spill) spill = std::make_unique<io::SpillDirectory>(options_.temporary_folder);
+  spill->Clear();
+  folprom::CheckRoom({spill->path(), io::VolumeOf(spill->path()), WeldSpillBytes(*source_)},
+                     {out.folder(), io::VolumeOf(out.folder()), 0});
+  WeldScan(std::move(spill));
+}
+
+void EncodeJob::WeldScan(std::unique_ptr<io::SpillDirectory> spill) {
+  if (source_->vertex_count() == 0) return;
+  auto welded =
+      std::make_unique<WeldedSource>(std::move(source_), WorkingBytes(options_.limits.memory_bytes),
+                                     std::move(spill), runner_, progress_);
+  welded_ = welded.get();
+  source_ = std::move(welded);
+}
+
 void EncodeJob::CheckRoom(const io::AtomicFile& out) const {
+  const ExpectedScan scan{*source_, source_->vertex_count()};
   folprom::CheckRoom(
-      {spill_->path(), io::VolumeOf(spill_->path()), EstimateSpillBytes(*source_, options_)},
-      {out.folder(), io::VolumeOf(out.folder()), EstimateFileBytes(*source_, options_)});
+      {spill_->path(), io::VolumeOf(spill_->path()), EstimateSpillBytes(scan, options_)},
+      {out.folder(), io::VolumeOf(out.folder()), EstimateFileBytes(scan, options_)});
 }
 
 void EncodeJob::MeasureScan() {
@@ -64,7 +91,8 @@ void EncodeJob::MeasureScan() {
     MeasureExactScan();
     return;
   }
-  Bounds bounds = MeasureBounds(*source_, runner_, progress_);
+  // A message names the vertex as the file counts.
+  Bounds bounds = MeasureBounds(original(), runner_, progress_);
   try {
     resolution_ = ResolutionOf(bounds, source_->coordinate_type(), options_);
   } catch (const Failure& failure) {
@@ -117,9 +145,7 @@ void EncodeJob::SetParameters(double typical_edge) {
       RefineLayersFor(parameters_.extent, typical_edge, per_octave, offsets), first_steps, parted);
 }
 
-bool EncodeJob::KeepsAttributes() const {
-  return options_.attributes && options_.codec.offsets == Offsets::kLattice;
-}
+bool EncodeJob::KeepsAttributes() const { return folprom::KeepsAttributes(options_); }
 
 std::vector<ValueSpan> EncodeJob::SpansOfAttributes() const {
   if (!KeepsAttributes()) return {};
@@ -256,6 +282,7 @@ void EncodeJob::EncodeOneSeam(size_t owner, const std::vector<uint32_t>& members
 SectionChoice EncodeJob::Sections() const {
   SectionChoice choice;
   choice.order = options_.keep_order;
+  choice.is_soup = is_soup_;
   choice.polygons =
       options_.codec.offsets == Offsets::kLattice && source_->notes().polygons_triangulated > 0;
   return choice;
@@ -307,6 +334,7 @@ io::FileTable EncodeJob::MakeTable() {
   io::FileTable table;
   table.vertices = source_->vertex_count();
   table.faces = source_->triangle_count();
+  table.is_soup = is_soup_;
   table.coordinate_type = static_cast<uint8_t>(OutputType(source_->coordinate_type()));
   table.origin = resolution_.lattice.origin;
   table.unit = resolution_.lattice.unit;

@@ -15,6 +15,7 @@
 #include "engine/partition/partition.h"
 #include "engine/resolution.h"
 #include "engine/section_encoder.h"
+#include "engine/weld/welded_source.h"
 #include "folprom/folprom.h"
 #include "io/container/file_table.h"
 #include "io/files/atomic_file.h"
@@ -34,6 +35,12 @@ class EncodeJob {
   EncodeJob(const std::string& input, const EncodeOptions& options, parallel::Runner& runner,
             parallel::Progress& progress);
 
+  /// First of all: a soup, or where it is asked for any scan, is welded, and that is what the other
+  /// stages see. Failure kOutput where the disk has no room for it. spill_name: of its temporary
+  /// files, which the same job clears away should this one be killed; may be empty.
+  void Weld(const io::AtomicFile& out, const std::string& spill_name);
+  /// Welds, whatever the options are. spill: empty.
+  void WeldScan(std::unique_ptr<io::SpillDirectory> spill);
   /// Takes over what an interrupted job from the same scan to `output` left, and from now on keeps
   /// what a later one needs. False where there is nothing to take over, or nothing that can be
   /// trusted: the scan is then to be measured and partitioned.
@@ -64,11 +71,17 @@ class EncodeJob {
   /// Of all subtrees and seams, after MakeTable.
   const CostMeters& costs() const { return costs_; }
   const io::MeshSource& source() const { return *source_; }
+  /// Null where it was not welded.
+  const WeldedSource* welded() const { return welded_; }
+  /// As the file has it.
+  const io::MeshSource& original() const { return welded_ != nullptr ? welded_->scan() : *source_; }
   const PartitionedScan& scan() const { return *scan_; }
   const io::SpillDirectory& spill() const { return *spill_; }
   /// Most bytes that the spill folder has held so far. Nothing is removed after the partition.
   uint64_t PeakSpillBytes() const {
-    return std::max(spill_->SizeBytes(), scan_ ? scan_->peak_spill_bytes() : 0);
+    const uint64_t own = std::max(spill_->SizeBytes(), scan_ ? scan_->peak_spill_bytes() : 0);
+    if (welded_ == nullptr) return own;
+    return std::max(welded_->peak_spill_bytes(), welded_->spill_bytes() + own);
   }
   /// Leaves the spill to a later job, where that can go on from it. Returns its path, else nothing.
   std::string KeepSpill();
@@ -109,6 +122,8 @@ class EncodeJob {
   parallel::Runner& runner_;
   parallel::Progress& progress_;
   std::unique_ptr<io::MeshSource> source_;
+  const WeldedSource* welded_ = nullptr;  ///< source_, where it is one
+  bool is_soup_ = false;                  ///< what it was welded from comes back
   std::unique_ptr<io::SpillDirectory> spill_;
   JobIdentity identity_;
   std::optional<EncodeJournal> journal_;  ///< of a job that may be continued

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 enum class RecordKind : uint8_t { kSubtree = 1, kSeam = 2 };
 
 // Raised with every change of the records or of what lies beside them in the spill.
-constexpr uint64_t kJournalVersion = 1;
+constexpr uint64_t kJournalVersion = 2;
 
 uint64_t HashOf(std::span<const uint8_t> bytes) { return io::XxHash64(bytes); }
 uint64_t HashOf(const std::string& text) {
@@ -57,6 +57,7 @@ uint64_t HashSettings(const EncodeOptions& options) {
   record.Put(options.tolerance);
   record.Put(options.exact);
   record.Put(options.attributes);
+  record.Put(options.weld);
   return HashOf(record.bytes());
 }
 

@@ -31,7 +31,7 @@ class FolpFile {
   void CheckUnchanged() const { file_.CheckUnchanged(); }
   /// Failure kLimit where the whole mesh has more than that.
   void CheckLimits(const Limits& limits) const {
-    io::CheckLimit(container_.name(), table().vertices, limits.vertices, "vertices");
+    io::CheckLimit(container_.name(), table().OutputVertices(), limits.vertices, "vertices");
     io::CheckLimit(container_.name(), table().faces, limits.faces, "faces");
   }
   Lattice lattice() const { return LatticeOf(table(), parameters_); }

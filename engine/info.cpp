@@ -92,6 +92,7 @@ Result<FileInfo> ReadInfo(const std::string& input, const Limits& limits) {
           {attribute.name, attribute.type, static_cast<double>(table.attribute_bits[a])});
     }
     info.remarks = table.remarks;
+    info.is_soup = table.is_soup;
     info.order = SectionOf(table, io::SectionKind::kOrder);
     info.polygons = SectionOf(table, io::SectionKind::kPolygons);
     info.scan_faces = table.polygons;

@@ -48,8 +48,9 @@ void CheckModels(const io::FileTable& table, uint64_t memory_bytes) {
 
 /// A mesh as its sections have it.
 struct ScanOrder {
-  std::vector<uint32_t> vertices;  ///< at each place the number of the vertex as it was decoded
-  std::vector<Face> faces;         ///< of these places
+  /// At each place the number of the vertex as it was decoded; of a soup none.
+  std::vector<uint32_t> vertices;
+  std::vector<Face> faces;  ///< of these places; of a soup of these numbers
   std::vector<uint64_t> polygon_begin;
 };
 
@@ -62,6 +63,19 @@ void Reorder(const std::vector<uint32_t>& vertices, size_t size, std::vector<uin
     ordered.insert(ordered.end(), begin, begin + static_cast<std::ptrdiff_t>(size));
   }
   *values = std::move(ordered);
+}
+
+/// Gives each face three vertices of its own.
+void MakeSoup(DecodedMesh* mesh) {
+  std::vector<std::array<double, 3>> positions;
+  positions.reserve(3 * mesh->faces.size());
+  for (std::array<uint64_t, 3>& face : mesh->faces) {
+    for (uint64_t& corner : face) {
+      positions.push_back(mesh->positions[corner]);
+      corner = positions.size() - 1;
+    }
+  }
+  mesh->positions = std::move(positions);
 }
 
 }  // namespace
@@ -133,9 +147,14 @@ struct MemoryDecoder::Impl {
     HeapSpace space;
     SectionDecoder decoder(container, positions, faces, space);
     ScanOrder result;
-    for (const uint32_t number : decoder.sequence()) result.vertices.push_back(vertex_of[number]);
+    for (const uint32_t number : decoder.sequence()) {
+      if (!table.is_soup) result.vertices.push_back(vertex_of[number]);
+    }
     FaceChunk chunk;
     while (decoder.Next(&chunk)) {
+      for (Face& face : chunk.triangles) {
+        for (uint32_t& corner : face) corner = table.is_soup ? vertex_of[corner] : corner;
+      }
       for (size_t i = 0; i < chunk.joins.size(); ++i) {
         if (chunk.joins[i] == 0) result.polygon_begin.push_back(result.faces.size() + i);
       }
@@ -237,11 +256,19 @@ DecodedMesh MemoryDecoder::Mesh() const {
     }
     AppendAttributes(subtree.state().Attributes(), table.schema, &mesh.attributes);
   }
+  const bool is_soup = table.is_soup && impl_->decoded == layer_count();
   if (!impl_->order) {
     mesh.faces = impl_->Faces();
+    if (is_soup) MakeSoup(&mesh);
     return mesh;
   }
   const ScanOrder& order = *impl_->order;
+  for (const Face& f : order.faces) mesh.faces.push_back({f[0], f[1], f[2]});
+  mesh.has_scan_order = table.Section(io::SectionKind::kOrder).has_value();
+  if (is_soup) {
+    MakeSoup(&mesh);
+    return mesh;
+  }
   std::vector<std::array<double, 3>> positions;
   positions.reserve(order.vertices.size());
   for (const size_t vertex : order.vertices) positions.push_back(mesh.positions[vertex]);
@@ -249,9 +276,7 @@ DecodedMesh MemoryDecoder::Mesh() const {
   for (DecodedAttribute& attribute : mesh.attributes) {
     Reorder(order.vertices, ScalarSize(attribute.type), &attribute.values);
   }
-  for (const Face& f : order.faces) mesh.faces.push_back({f[0], f[1], f[2]});
   mesh.polygon_begin = order.polygon_begin;
-  mesh.has_scan_order = table.Section(io::SectionKind::kOrder).has_value();
   return mesh;
 }
 

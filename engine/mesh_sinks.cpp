@@ -36,6 +36,10 @@ void AddSeamFaces(std::span<const SeamFace> faces, const std::vector<std::vector
   for (const SeamFace& f : faces) AddFace(digest, at(f[0]), at(f[1]), at(f[2]));
 }
 
+[[noreturn]] void ThrowCounts(const std::string& input) {
+  throw Failure(ErrorKind::kCorrupt, input + ": decoded counts differ from those of the table");
+}
+
 }  // namespace
 
 void FileSink::AddSubtree(const SubtreePart& part) {
@@ -73,12 +77,52 @@ void FileSink::Flush() {
   triangles_.clear();
 }
 
-void FileSink::ThrowCountsDiffer() const {
-  throw Failure(ErrorKind::kCorrupt, input_ + ": decoded counts differ from those of the table");
-}
+void FileSink::ThrowCountsDiffer() const { ThrowCounts(input_); }
 
 void FileSink::CheckComplete() const {
   if (vertices_ != expected_.vertices || faces_ != expected_.faces) ThrowCountsDiffer();
+}
+
+void SoupSink::AddSubtree(const SubtreePart& part) {
+  vertices_ += part.positions.size();
+  auto& border = EntryFor(border_, part.subtree);
+  for (const uint32_t vertex : part.border_vertices) {
+    border.push_back(part.Position(lattice_, vertex));
+  }
+  for (const Face& face : part.faces) {
+    for (const uint32_t vertex : face) AddCorner(part.Position(lattice_, vertex));
+    if (xyz_.size() >= 9 * kFacesPerWrite) Flush();
+  }
+  Flush();
+}
+
+void SoupSink::AddSeam(std::span<const SeamFace> faces) {
+  for (const SeamFace& face : faces) {
+    for (const BorderRef& ref : face) AddCorner(border_[ref.subtree][ref.border]);
+  }
+  Flush();
+}
+
+void SoupSink::Flush() {
+  const size_t count = xyz_.size() / 9;
+  if (count > expected_.faces - faces_) ThrowCounts(input_);
+  writer_.AppendVertices(xyz_).value();
+  writer_.AppendFaces(SoupFaces(faces_, count)).value();
+  faces_ += count;
+  xyz_.clear();
+}
+
+void SoupSink::CheckComplete() const {
+  if (vertices_ != expected_.vertices || faces_ != expected_.faces) ThrowCounts(input_);
+}
+
+std::vector<io::Triangle> SoupFaces(uint64_t first, size_t count) {
+  std::vector<io::Triangle> faces(count);
+  for (size_t i = 0; i < count; ++i) {
+    const uint64_t vertex = 3 * (first + i);
+    faces[i] = {vertex, vertex + 1, vertex + 2};
+  }
+  return faces;
 }
 
 RegionSink::RegionSink(const Lattice& lattice, std::array<double, 3> lo, std::array<double, 3> hi,

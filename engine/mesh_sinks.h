@@ -44,6 +44,33 @@ class FileSink final : public MeshSink {
   std::vector<io::Triangle> triangles_;
 };
 
+/// Writes the faces of a soup, each with three vertices of its own.
+class SoupSink final : public MeshSink {
+ public:
+  /// expected, input: as of FileSink; the writer was made for three vertices a face.
+  SoupSink(const Lattice& lattice, const io::LayerRecord& expected, std::string input,
+           io::MeshWriter& writer)
+      : lattice_(lattice), expected_(expected), input_(std::move(input)), writer_(writer) {}
+  void CheckComplete() const;
+  void AddSubtree(const SubtreePart& part) override;
+  void AddSeam(std::span<const SeamFace> faces) override;
+
+ private:
+  void AddCorner(const ExactPosition& xyz) { xyz_.insert(xyz_.end(), xyz.begin(), xyz.end()); }
+  void Flush();
+  Lattice lattice_;
+  io::LayerRecord expected_;
+  std::string input_;
+  io::MeshWriter& writer_;
+  uint64_t vertices_ = 0;  ///< of the mesh that is decoded
+  uint64_t faces_ = 0;
+  std::vector<std::vector<ExactPosition>> border_;  ///< per subtree
+  std::vector<double> xyz_;                         ///< of whole faces
+};
+
+/// The faces from `first` on of a soup.
+std::vector<io::Triangle> SoupFaces(uint64_t first, size_t count);
+
 /// Keeps the vertices inside a box and the faces with all corners inside; their number is known
 /// only at the end, so they wait in the spill.
 class RegionSink final : public MeshSink {

@@ -73,13 +73,25 @@ void OrderedMesh::Finish() {
                    space_);
 }
 
+void OrderedMesh::AppendPosition(uint32_t number, std::vector<double>* xyz) {
+  const ExactPosition p = has_exact_ ? exact_[number] : lattice_.ToModel(positions_[number]);
+  xyz->insert(xyz->end(), p.begin(), p.end());
+}
+
+void OrderedMesh::ReadCorners(std::span<const Face> faces, std::vector<double>* xyz) {
+  xyz->clear();
+  for (const Face& face : faces) {
+    for (const uint32_t number : face) AppendPosition(number, xyz);
+    space_.Stepped(1);
+  }
+}
+
 void OrderedMesh::ReadVertices(uint64_t first, size_t count, std::vector<double>* xyz,
                                std::vector<uint8_t>* attributes) {
   xyz->clear();
   attributes->clear();
   for (const uint32_t number : decoder_->sequence().subspan(first, count)) {
-    const ExactPosition p = has_exact_ ? exact_[number] : lattice_.ToModel(positions_[number]);
-    xyz->insert(xyz->end(), p.begin(), p.end());
+    AppendPosition(number, xyz);
     const auto values = attributes_.subspan(number * stride_, stride_);
     attributes->insert(attributes->end(), values.begin(), values.end());
     space_.Stepped(1);

@@ -29,10 +29,13 @@ class OrderedMesh final : public MeshSink {
   /// attributes of each.
   void ReadVertices(uint64_t first, size_t count, std::vector<double>* xyz,
                     std::vector<uint8_t>* attributes);
+  /// Of a soup: the same of the corners of these faces, one after another.
+  void ReadCorners(std::span<const Face> faces, std::vector<double>* xyz);
   /// The next faces, see SectionDecoder.
   bool ReadFaces(FaceChunk* chunk) { return decoder_->Next(chunk); }
 
  private:
+  void AppendPosition(uint32_t number, std::vector<double>* xyz);
   [[noreturn]] void ThrowCountsDiffer() const;
   void AddFace(const Face& face);
   /// What waits on disk until all is there.

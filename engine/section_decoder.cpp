@@ -48,7 +48,7 @@ SectionDecoder::SectionDecoder(const io::ContainerReader& container,
       mesh_(MakeOrderMesh(positions, faces, space)),
       sequence_(space.Words(positions.size())),
       place_of_(space.Words(positions.size())),
-      order_(mesh_, sequence_, place_of_, space),
+      order_(mesh_, sequence_, place_of_, container.table().is_soup, space),
       order_blocks_(BlocksOf(container, io::SectionKind::kOrder)),
       polygon_blocks_(BlocksOf(container, io::SectionKind::kPolygons)) {
   if (!container.table().Section(io::SectionKind::kOrder)) {
@@ -92,6 +92,7 @@ void SectionDecoder::ReadOrder(FaceChunk* chunk) {
     order_.CodeFaces(order_bits_, chunk->triangles);
     order_bits_.FinishSegment();
   });
+  if (container_.table().is_soup) return;
   for (Face& face : chunk->triangles) {
     for (uint32_t& corner : face) corner = place_of_[corner];
   }

@@ -22,7 +22,8 @@ bool HasWholeSections(const io::ContainerReader& container);
 
 /// Some faces of the scan, in its order.
 struct FaceChunk {
-  std::vector<Face> triangles;  ///< places of their vertices
+  /// Places of their vertices; of a soup the numbers.
+  std::vector<Face> triangles;
   /// 1 for a triangle that goes on with the polygon of the triangle before, maybe of the chunk
   /// before: (a, b, c), (a, c, d) ...; else 0. Empty in a file of triangles.
   std::vector<uint8_t> joins;
@@ -36,6 +37,7 @@ class SectionDecoder {
                  std::span<const Face> faces, WorkSpace& space);
 
   /// [i]: number of the vertex that stands at place i of the scan; i where its order is not kept.
+  /// Of a soup it means nothing.
   std::span<const uint32_t> sequence() const { return sequence_; }
   /// The next faces; false, and nothing, where all were given and were those that the encoder had.
   /// Throws Failure kCorrupt.

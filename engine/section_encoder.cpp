@@ -116,7 +116,8 @@ class SectionEncoder {
   io::SectionRecord EncodeOrder(const OrderMesh& mesh) {
     io::SectionRecord record;
     place_of_ = space_.Words(sequence_.size());
-    OrderCoder coder(mesh, sequence_, place_of_, space_);
+    // That of the faces in hand, a soup needs the sequence no more.
+    OrderCoder coder(mesh, sequence_, place_of_, choice_.is_soup, space_);
     BitEncoder bits;
     while (const uint32_t count = coder.NextVertices()) {
       progress_.ThrowIfCancelled();

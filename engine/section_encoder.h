@@ -21,6 +21,7 @@ namespace folprom {
 struct SectionChoice {
   bool order = false;
   bool polygons = false;
+  bool is_soup = false;  ///< what the order is of
 
   bool any() const { return order || polygons; }
 };

@@ -9,6 +9,7 @@
 #include "engine/mesh_sinks.h"
 #include "engine/run_guarded.h"
 #include "engine/verify_sections.h"
+#include "engine/weld/soup.h"
 #include "folprom/folprom.h"
 #include "io/container/checksum.h"
 
@@ -88,16 +89,26 @@ class Comparison {
 
   void Run(uint64_t memory_bytes, const std::string& temporary_folder, VerifyReport* report) {
     const io::FileTable& table = file_.table();
-    if (job_.source().vertex_count() != table.vertices ||
-        job_.source().triangle_count() != table.faces) {
+    if (table.is_soup && !IsSoup(job_.source())) {
+      report->reason = "the file is of a soup, the scan is none";
+      return;
+    }
+    const bool in_order = table.Section(io::SectionKind::kOrder).has_value();
+    if (NeedsWeld(in_order)) {
+      job_.WeldScan(std::make_unique<io::SpillDirectory>(temporary_folder));
+    }
+    report->welded = job_.welded() != nullptr && !table.is_soup;
+    // In order the corners of a soup are compared as they stand.
+    const uint64_t vertices = in_order ? table.OutputVertices() : table.vertices;
+    if (job_.source().vertex_count() != vertices || job_.source().triangle_count() != table.faces) {
       report->reason = "the scan has " + std::to_string(job_.source().vertex_count()) +
                        " vertices and " + std::to_string(job_.source().triangle_count()) +
-                       " faces, the file " + std::to_string(table.vertices) + " and " +
+                       " faces, the file " + std::to_string(vertices) + " and " +
                        std::to_string(table.faces);
       return;
     }
     if (!AreExtrasAlike(report)) return;
-    if (table.Section(io::SectionKind::kOrder)) {
+    if (in_order) {
       RunInOrder(memory_bytes, temporary_folder, report);
       return;
     }
@@ -138,6 +149,14 @@ class Comparison {
     encode.limits = options.limits;
     encode.temporary_folder = options.temporary_folder;
     return encode;
+  }
+
+  /// Is the file of fewer vertices than the scan because those of equal coordinates are one in it.
+  bool NeedsWeld(bool in_order) const {
+    const io::FileTable& table = file_.table();
+    if (table.is_soup) return !in_order;
+    return job_.source().vertex_count() > table.vertices &&
+           job_.source().triangle_count() == table.faces && table.schema.attributes.empty();
   }
 
   /// Element by element: the order itself tells which vertex is which.
@@ -207,14 +226,15 @@ class Comparison {
     job_.source().DropResident();
   }
 
-  /// Number, in the decoded mesh, of the vertex that one of the scan became.
+  /// Number, in the decoded mesh, of the vertex that one of job_.source() became.
   uint64_t FinalVertex(const VertexRef& ref) const {
     const uint64_t first = first_vertex_[ref.subtree];
     return first + io::MappedArray<uint32_t>(order_)[first + ref.local];
   }
 
+  /// Of the scan as it is in its file: that it was welded rightly is not taken on trust.
   void ComparePositions(VerifyReport* report) {
-    const io::MeshSource& source = job_.source();
+    const io::MeshSource& source = job_.original();
     size_t blocks = source.vertex_block_count();
     std::vector<CoordinateCheck> checks(blocks, CoordinateCheck(file_));
     progress_.StartStage("compare vertices", blocks);
@@ -223,7 +243,8 @@ class Comparison {
       source.ReadVertexBlock(b, &xyz).value();
       uint64_t first = source.vertex_block_begin(b);
       for (size_t i = 0; i < xyz.size() / 3; ++i) {
-        const VertexRef& ref = job_.scan().vertex_map()[first + i];
+        const uint64_t vertex = job_.welded() ? job_.welded()->NumberOf(first + i) : first + i;
+        const VertexRef& ref = job_.scan().vertex_map()[vertex];
         const ExactPosition& p = io::MappedArray<ExactPosition>(decoded_)[FinalVertex(ref)];
         for (size_t axis = 0; axis < 3; ++axis) {
           checks[b].Add(p[axis], xyz[3 * i + axis]);

@@ -88,6 +88,39 @@ void CompareFaces(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource&
   }
 }
 
+/// The corners of all faces, one after another, with the vertices of the scan.
+void CompareSoup(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource& source,
+                 parallel::Progress& progress, VerifyReport* report) {
+  CoordinateCheck check(file);
+  FaceChunk chunk;
+  std::vector<double> xyz, decoded;
+  size_t at = 0;
+  const size_t blocks = source.vertex_block_count();
+  progress.StartStage("compare faces", blocks);
+  for (size_t b = 0; b < blocks; ++b) {
+    progress.ThrowIfCancelled();
+    source.ReadVertexBlock(b, &xyz).value();
+    for (const double coordinate : xyz) {
+      if (at == decoded.size()) {
+        at = 0;
+        if (!mesh.ReadFaces(&chunk)) {
+          report->reason = "the scan has more faces than the file";
+          return;
+        }
+        mesh.ReadCorners(chunk.triangles, &decoded);
+      }
+      check.Add(decoded[at++], coordinate);
+    }
+    source.DropResident();
+    progress.Advance(1);
+  }
+  report->max_position_error = check.largest_error;
+  CoordinateCheck::Judge(file, check.same_bits, report);
+  if (report->reason.empty() && (at != decoded.size() || mesh.ReadFaces(&chunk))) {
+    report->reason = "the file has more faces than the scan";
+  }
+}
+
 }  // namespace
 
 void CoordinateCheck::Add(double decoded, double original) {
@@ -121,6 +154,10 @@ void CheckSections(OrderedMesh& mesh) {
 void CompareInOrder(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource& source,
                     parallel::Progress& progress, VerifyReport* report) {
   mesh.Finish();
+  if (file.table().is_soup) {
+    CompareSoup(file, mesh, source, progress, report);
+    return;
+  }
   CompareVertices(file, mesh, source, progress, report);
   if (report->reason.empty()) CompareFaces(file, mesh, source, progress, report);
 }

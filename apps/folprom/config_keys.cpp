@@ -83,6 +83,10 @@ std::vector<Key> EncodeKeys(EncodeConfig& config) {
        "vertices and faces come back in the scan's order, faces with their first corner first; "
        "needs offsets = \"lattice\"",
        ""},
+      {"encode", "weld", &o.weld,
+       "vertices of equal coordinates become one, so that a soup, such as STL files are, becomes a "
+       "surface; needs attributes = false where vertices have any",
+       ""},
       {"encode", "threads", &config.threads, "0: all; never alters the file", "threads", 0, 1024},
       {"encode", "memory", &o.limits.memory_bytes,
        "resident size to stay below; never alters the file", "bytes, or a text such as \"2GiB\"", 1,

@@ -41,6 +41,7 @@ struct EncodeFlags {
   bool exact = false;
   bool no_attributes = false;
   bool keep_order = false;
+  bool weld = false;
   std::optional<uint64_t> subtree_vertices;
   bool print_config = false;
   bool force = false;
@@ -63,6 +64,7 @@ EncodeConfig Settings(const EncodeFlags& flags) {
   if (flags.exact) options.exact = true;
   if (flags.no_attributes) options.attributes = false;
   if (flags.keep_order) options.keep_order = true;
+  if (flags.weld) options.weld = true;
   if (flags.subtree_vertices) {
     // What does not fit is out of range in any case.
     options.codec.subtree_vertices =
@@ -101,6 +103,8 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
     PrintJson({{"output", flags.output},
                {"vertices", report.vertices},
                {"faces", report.faces},
+               {"scan_vertices", report.scan_vertices},
+               {"is_soup", report.is_soup},
                {"bytes", report.bytes},
                {"order_bytes", report.order_bytes},
                {"polygon_bytes", report.polygon_bytes},
@@ -121,6 +125,12 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
         flags.output, Grouped(report.vertices), Grouped(report.faces), Grouped(report.bytes),
         bits_per_vertex, Grouped(report.layers), Grouped(report.subtrees), seconds,
         BytesShort(PeakResidentBytes()), BytesShort(report.spill_bytes)));
+    if (report.is_soup) {
+      Print(fmt::format("a soup: its {} vertices lie at these {} places\n",
+                        Grouped(report.scan_vertices), Grouped(report.vertices)));
+    } else if (report.scan_vertices != report.vertices) {
+      Print(fmt::format("welded: the scan has {} vertices\n", Grouped(report.scan_vertices)));
+    }
     if (report.resumed_subtrees > 0) {
       Print(fmt::format("{} subtrees were there from the interrupted encoding\n",
                         Grouped(report.resumed_subtrees)));
@@ -207,6 +217,8 @@ Verb AddEncode(CLI::App& program) {
                  "Without colours, normals and what else vertices have, and without comments");
   verb->add_flag("--keep-order", flags->keep_order,
                  "Vertices and faces come back in the scan's order");
+  verb->add_flag("--weld", flags->weld,
+                 "Vertices of equal coordinates become one: a surface of the soup that an STL is");
   verb->add_option("--effort", flags->effort,
                    "1 fastest .. 9 smallest file; wins over the settings, other flags over it")
       ->check(CLI::Range(1, 9))

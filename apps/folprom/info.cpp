@@ -35,6 +35,11 @@ double BitsPerVertex(const FileInfo& info) {
              : 8 * static_cast<double>(info.bytes) / static_cast<double>(info.vertices);
 }
 
+/// That the whole mesh has when it is decoded.
+uint64_t ScanVertices(const FileInfo& info) {
+  return info.is_soup ? 3 * info.faces : info.vertices;
+}
+
 struct Kind {
   const char* name;
   double FileInfo::*bits_per_vertex;
@@ -94,6 +99,8 @@ Json InfoJson(const FileInfo& info) {
   return {{"format_version", info.format_version},
           {"vertices", info.vertices},
           {"faces", info.faces},
+          {"is_soup", info.is_soup},
+          {"scan_vertices", ScanVertices(info)},
           {"bytes", info.bytes},
           {"bytes_present", info.bytes_present},
           {"bits_per_vertex", BitsPerVertex(info)},
@@ -127,6 +134,10 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
                  Grouped(info.bytes), BitsPerVertex(info), Grouped(info.subtrees),
                  info.tolerance ? fmt::format("{:.6g}", *info.tolerance) : "unknown",
                  info.codec.effort);
+  if (info.is_soup) {
+    fmt::format_to(out, "a soup: {} vertices, three a face, at these {} places\n",
+                   Grouped(ScanVertices(info)), Grouped(info.vertices));
+  }
   if (info.exact) {
     fmt::format_to(out, "exact: every bit of a {}, on a lattice of {}^{} of {:.2f} bits{}\n",
                    info.exact->is_float ? "float32" : "float64", info.exact->radix,
@@ -197,9 +208,9 @@ Verb AddInfo(CLI::App& program) {
   auto flags = std::make_shared<InfoFlags>();
   CLI::App* verb = program.add_subcommand("info", kDescription);
   verb->add_option("F.folp", flags->input, "File to read")->type_name("")->required();
+  AddLimitFlag(verb, &flags->limits);
   AddCommonFlags(verb, &flags->common);
   return {verb, [flags] { return Run(*flags); }};
 }
 
 }  // namespace folprom::cli
-  AddLimitFlag(verb, &flags->limits);

@@ -39,6 +39,7 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
                {"faces", report.faces},
                {"attributes", report.attributes},
                {"order_kept", report.order_kept},
+               {"welded", report.welded},
                {"reason", report.reason},
                {"seconds", seconds},
                {"peak_rss_bytes", PeakResidentBytes()}});
@@ -53,6 +54,7 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
         text += fmt::format(", {} attributes equal", report.attributes);
       }
     }
+    if (report.welded) text += ", welded";
     if (report.order_kept) text += ", order kept";
     Print(text + fmt::format("; {:.1f} s\n", seconds));
   }

@@ -45,17 +45,36 @@ uint32_t RankOfFirst(const Face& places) {
 
 }  // namespace
 
-FaceWalk::FaceWalk(const OrderMesh& mesh, const Sweep& sweep, std::span<const uint32_t> sequence,
-                   std::span<const uint32_t> place_of)
+FaceWalk::FaceWalk(const OrderMesh& mesh, const Sweep& sweep, std::span<uint32_t> sequence,
+                   std::span<uint32_t> place_of, bool is_soup)
     : mesh_(mesh),
       sequence_(sequence),
       place_of_(place_of),
+      placed_(is_soup ? 0 : mesh.vertex_count()),
       remaining_(mesh.face_count(), sweep),
       near_({kHistories * kManyClasses, kRelations * kRelations}),
       choice_({kRelations * kRelations * 4, kRelations * 4 * 2 * 3 * 4,
                kRanks * kRanks * kRelations, kRanks * kRanks * 2 * 3,
                kRelations * kRelations * kRelations, kRanks * kRanks * 3 * 4 * kRelations}),
       turns_({64 * 3, 6 * 3 * 4, 64 * 4, kRelations * 6 * 3}) {}
+
+Face FaceWalk::PlacesOf(const Face& face) const {
+  uint32_t next = placed_;
+  Face places;
+  for (size_t i = 0; i < 3; ++i) {
+    const uint32_t place = place_of_[face[i]];
+    places[i] = place != kNoNumber ? place : next++;
+  }
+  return places;
+}
+
+void FaceWalk::GivePlaces(const Face& face) {
+  for (const uint32_t vertex : face) {
+    if (place_of_[vertex] != kNoNumber) continue;
+    place_of_[vertex] = placed_;
+    sequence_[placed_++] = vertex;
+  }
+}
 
 void FaceWalk::Add(uint32_t face, uint32_t patterns) {
   if (!remaining_.Has(face)) return;
@@ -99,7 +118,7 @@ void FaceWalk::AddPatterns() {
     Face& next = pattern_[p];
     // Modulo 2^32; what is no vertex is beyond them.
     for (size_t i = 0; i < 3; ++i) next[i] = near[i] + (near[i] - far[i]);
-    if (std::ranges::max(next) >= mesh_.vertex_count()) continue;
+    if (std::ranges::max(next) >= placed_) continue;
     has_pattern_[p] = true;
     const uint32_t face = FindNear({sequence_[next[0]], sequence_[next[1]], sequence_[next[2]]});
     if (face != kNoNumber) Add(face, 1u << p);
@@ -116,9 +135,9 @@ void FaceWalk::Collect() {
   if (done_ == 0) return;
   AddPatterns();
   for (const uint32_t vertex : last_[0]) AddStar(vertex);
-  while (front_ < mesh_.vertex_count() && !HasFacesLeft(front_)) ++front_;
-  if (front_ < mesh_.vertex_count()) AddStar(sequence_[front_]);
-  if (newest_ + 1 < mesh_.vertex_count()) AddStar(sequence_[newest_ + 1]);
+  while (front_ < placed_ && !HasFacesLeft(front_)) ++front_;
+  if (front_ < placed_) AddStar(sequence_[front_]);
+  if (newest_ + 1 < placed_) AddStar(sequence_[newest_ + 1]);
 }
 
 Option<FaceWalk::kContexts> FaceWalk::OptionOf(const Found& found) const {
@@ -183,6 +202,7 @@ uint32_t FaceWalk::CodeTurn(Coder& coder, const Face& face, uint32_t turn) {
 }
 
 void FaceWalk::Advance(uint32_t number, const Face& face) {
+  GivePlaces(face);
   const Face places = PlacesOf(face);
   first_corner_ = RankOfFirst(places);
   relation_before_ = relation_;

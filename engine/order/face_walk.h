@@ -1,4 +1,5 @@
-// The order of faces, and the corner that each begins with, where the order of vertices is known.
+// The order of faces, and the corner that each begins with, where the order of vertices is known or
+// follows from that of the faces.
 #pragma once
 
 #include <array>
@@ -16,9 +17,11 @@ namespace folprom {
 /// the steps of its forerunners, one where vertices begin or end to be used, or any.
 class FaceWalk {
  public:
-  /// sequence, place_of: of the vertices, as the VertexWalk leaves them.
-  FaceWalk(const OrderMesh& mesh, const Sweep& sweep, std::span<const uint32_t> sequence,
-           std::span<const uint32_t> place_of);
+  /// sequence, place_of: of the vertices, as the VertexWalk leaves them. Of a soup they are
+  /// written: a vertex, whose place is kNoNumber before, takes the next one with the first face
+  /// that has it.
+  FaceWalk(const OrderMesh& mesh, const Sweep& sweep, std::span<uint32_t> sequence,
+           std::span<uint32_t> place_of, bool is_soup);
 
   /// Codes the next faces, with the numbers that vertices have in the mesh; read by an encoder,
   /// written by a decoder. Throws Failure kCorrupt.
@@ -49,12 +52,13 @@ class FaceWalk {
   template <class Coder>
   uint32_t CodeTurn(Coder& coder, const Face& face, uint32_t turn);
   void Advance(uint32_t number, const Face& face);
-  Face PlacesOf(const Face& face) const {
-    return {place_of_[face[0]], place_of_[face[1]], place_of_[face[2]]};
-  }
+  /// Those that its vertices have, or would get now.
+  Face PlacesOf(const Face& face) const;
+  void GivePlaces(const Face& face);
 
   const OrderMesh& mesh_;
-  std::span<const uint32_t> sequence_, place_of_;
+  std::span<uint32_t> sequence_, place_of_;
+  uint32_t placed_;  ///< vertices that have a place
   Remaining remaining_;
   std::array<Face, 2 * kPatterns> last_{};     ///< the faces before, the last one first
   std::array<Face, kPatterns> pattern_{};      ///< places of what the patterns expect

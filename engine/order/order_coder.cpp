@@ -35,8 +35,8 @@ uint64_t OrderDigest(uint64_t place, const Int3& position) {
       std::array<uint64_t, 4>{place, word(position.x), word(position.y), word(position.z)});
 }
 
-uint64_t OrderDigest(uint64_t place, const Face& places) {
-  return HashOf(std::array<uint64_t, 4>{place, places[0], places[1], places[2]});
+uint64_t OrderDigest(uint64_t place, const Face& corners) {
+  return HashOf(std::array<uint64_t, 4>{place, corners[0], corners[1], corners[2]});
 }
 
 void OrderCoder::DigestVertices(uint32_t begin, uint32_t end) {
@@ -47,9 +47,9 @@ void OrderCoder::DigestVertices(uint32_t begin, uint32_t end) {
 
 void OrderCoder::DigestFaces(std::span<const Face> faces) {
   uint64_t number = faces_done_;
-  for (const Face& face : faces) {
-    digest_ +=
-        OrderDigest(number++, Face{place_of_[face[0]], place_of_[face[1]], place_of_[face[2]]});
+  for (Face face : faces) {
+    for (uint32_t& corner : face) corner = is_soup_ ? corner : place_of_[corner];
+    digest_ += OrderDigest(number++, face);
   }
 }
 
@@ -78,12 +78,16 @@ void OrderCoder::CodeVertices(Coder& coder) {
 template <class Coder>
 void OrderCoder::CodeFaces(Coder& coder, std::span<Face> faces) {
   if (!faces_) {
-    SweepMaker maker(mesh_, place_of_, space_);
+    SweepMaker maker(mesh_, place_of_, is_soup_, space_);
     uint32_t code = 0;
     if constexpr (Coder::kEncoding)
       code = ChooseSweep(maker, mesh_.face_count(), mesh_.Numbers(faces));
-    code = CodeSweep(coder, SweepMaker::kFaceCodes, code);
-    faces_.emplace(mesh_, maker.Make(code), sequence_, place_of_);
+    code = CodeSweep(coder, maker.codes(), code);
+    for (uint32_t v = 0; is_soup_ && v < mesh_.vertex_count(); ++v) {
+      place_of_[v] = kNoNumber;
+      space_.Stepped(1);
+    }
+    faces_.emplace(mesh_, maker.Make(code), sequence_, place_of_, is_soup_);
   }
   for (size_t begin = 0; begin < faces.size(); begin += kStep) {
     const auto some = faces.subspan(begin, std::min<size_t>(kStep, faces.size() - begin));

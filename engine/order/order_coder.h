@@ -19,16 +19,22 @@ inline constexpr uint32_t kOrderBlock = 65536;
 
 /// Of a vertex at its place in the scan's order.
 uint64_t OrderDigest(uint64_t place, const Int3& position);
-/// Of a face there; of its vertices the places.
-uint64_t OrderDigest(uint64_t place, const Face& places);
+/// Of a face there; of its vertices the places, of those of a soup the numbers.
+uint64_t OrderDigest(uint64_t place, const Face& corners);
 
-/// First all vertices, then all faces are coded, each block with a segment of the coder.
+/// First all vertices, then all faces are coded, each block with a segment of the coder. Of a soup,
+/// whose vertices stand where the faces name them, the faces alone.
 class OrderCoder {
  public:
-  /// sequence, place_of: as of VertexWalk.
+  /// sequence, place_of: as of VertexWalk; of a soup both are written by the faces.
   OrderCoder(const OrderMesh& mesh, std::span<uint32_t> sequence, std::span<uint32_t> place_of,
-             WorkSpace& space)
-      : mesh_(mesh), sequence_(sequence), place_of_(place_of), space_(space) {}
+             bool is_soup, WorkSpace& space)
+      : mesh_(mesh),
+        sequence_(sequence),
+        place_of_(place_of),
+        is_soup_(is_soup),
+        space_(space),
+        vertices_done_(is_soup ? mesh.vertex_count() : 0) {}
 
   /// Vertices of the next block; 0: all are done.
   uint32_t NextVertices() const { return Next(vertices_done_, mesh_.vertex_count()); }
@@ -51,8 +57,9 @@ class OrderCoder {
 
   const OrderMesh& mesh_;
   std::span<uint32_t> sequence_, place_of_;
+  const bool is_soup_;
   WorkSpace& space_;
-  uint32_t vertices_done_ = 0, faces_done_ = 0;
+  uint32_t vertices_done_, faces_done_ = 0;
   std::optional<VertexWalk> vertices_;
   std::optional<FaceWalk> faces_;
   uint64_t digest_ = 0;

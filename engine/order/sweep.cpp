@@ -14,10 +14,15 @@ constexpr uint32_t kVertexBuckets = uint32_t{1} << kVertexBucketBits;
 
 }  // namespace
 
-SweepMaker::SweepMaker(const OrderMesh& mesh, WorkSpace& space) : mesh_(mesh), space_(space) {}
+SweepMaker::SweepMaker(const OrderMesh& mesh, WorkSpace& space)
+    : mesh_(mesh), codes_(kVertexCodes), space_(space) {}
 
-SweepMaker::SweepMaker(const OrderMesh& mesh, std::span<const uint32_t> place_of, WorkSpace& space)
-    : mesh_(mesh), place_of_vertex_(place_of), space_(space) {}
+SweepMaker::SweepMaker(const OrderMesh& mesh, std::span<const uint32_t> place_of, bool is_soup,
+                       WorkSpace& space)
+    : mesh_(mesh),
+      place_of_vertex_(place_of),
+      codes_(is_soup ? kSoupCodes : kFaceCodes),
+      space_(space) {}
 
 Sweep SweepMaker::Make(uint32_t code) {
   const uint32_t key = code / 2;

@@ -25,17 +25,19 @@ struct Sweep {
 
 /// How a sweep is named in a file: twice the key, one more where it counts from the first.
 /// Vertices have the keys number, x, y, z; faces number, least and largest of the places of their
-/// vertices. Memory is taken from `space`, once for all sweeps that a maker makes.
+/// vertices; of a soup, number alone. Memory is taken from `space`, once for all sweeps that a
+/// maker makes.
 class SweepMaker {
  public:
-  static constexpr uint32_t kVertexCodes = 8, kFaceCodes = 6;
+  static constexpr uint32_t kVertexCodes = 8, kFaceCodes = 6, kSoupCodes = 2;
 
   /// Of vertices.
   SweepMaker(const OrderMesh& mesh, WorkSpace& space);
-  /// Of faces, where the vertices have places.
-  SweepMaker(const OrderMesh& mesh, std::span<const uint32_t> place_of, WorkSpace& space);
+  /// Of faces, where the vertices have places; of a soup they have none yet.
+  SweepMaker(const OrderMesh& mesh, std::span<const uint32_t> place_of, bool is_soup,
+             WorkSpace& space);
 
-  uint32_t codes() const { return place_of_vertex_.empty() ? kVertexCodes : kFaceCodes; }
+  uint32_t codes() const { return codes_; }
   /// code < codes(). What was made before is lost.
   Sweep Make(uint32_t code);
 
@@ -48,6 +50,7 @@ class SweepMaker {
 
   const OrderMesh& mesh_;
   std::span<const uint32_t> place_of_vertex_;
+  const uint32_t codes_;
   WorkSpace& space_;
   std::span<uint32_t> place_of_, sequence_, counts_;
   uint32_t key_ = 0;

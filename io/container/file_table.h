@@ -83,7 +83,9 @@ struct FileTable {
   std::array<double, 3> origin{};   ///< lattice
   double unit = 1;                  ///< lattice
   std::array<int32_t, 3> extent{};  ///< lattice, 0 .. 2^30 - 1
-  std::vector<uint8_t> codec;       ///< settings of the coder, meaning known to the engine only
+  /// Each face has three vertices of its own in the scan; those of equal coordinates are one here.
+  bool is_soup = false;
+  std::vector<uint8_t> codec;  ///< settings of the coder, meaning known to the engine only
   /// Of the vertices; each has a range below, and bits in the last table.
   VertexSchema schema;
   std::vector<AttributeRange> attribute_ranges;
@@ -118,6 +120,8 @@ struct FileTable {
     return std::any_of(sections.begin(), sections.end(),
                        [](const auto& section) { return section.has_value(); });
   }
+  /// Vertices that the whole mesh has when it is written.
+  uint64_t OutputVertices() const { return is_soup ? 3 * faces : vertices; }
   /// Has it anything that a scan of bare positions and faces has not.
   bool HasExtras() const { return !schema.attributes.empty() || !remarks.empty(); }
   bool operator==(const FileTable&) const = default;

@@ -145,6 +145,14 @@ std::string SectionsFault(const FileTable& table) {
   return {};
 }
 
+std::string SoupFault(const FileTable& table) {
+  if (!table.is_soup) return {};
+  if (table.vertices > 3 * table.faces) return "more vertices than a soup of its faces has";
+  if (!table.schema.attributes.empty()) return "attributes of the vertices of a soup";
+  if (table.Section(SectionKind::kPolygons)) return "polygons in a soup";
+  return {};
+}
+
 }  // namespace
 
 float NextErrorBound(double bound) {
@@ -156,8 +164,9 @@ std::string TableFault(const FileTable& table) {
   if (table.vertices > kMaxCount || table.faces > kMaxCount) {
     return "2^48 vertices or faces, or more";
   }
-  for (const auto& fault : {LatticeFault(table), ExtrasFault(table), LayersFault(table),
-                            SubtreesFault(table), SegmentsFault(table), SectionsFault(table)}) {
+  for (const auto& fault :
+       {LatticeFault(table), ExtrasFault(table), LayersFault(table), SubtreesFault(table),
+        SegmentsFault(table), SectionsFault(table), SoupFault(table)}) {
     if (!fault.empty()) return fault;
   }
   return {};

@@ -17,12 +17,13 @@ namespace {
 constexpr uint64_t kMaxCoordinate = (uint64_t{1} << 30) - 1;
 /// Fewest bytes of a record: varint, box of six, neighbour count.
 constexpr uint64_t kLeastSubtreeBytes = 8;
-/// Flags of the mesh: the origin is of floats; there are attributes or remarks; and, from the third
-/// on, a bit for each section.
-constexpr uint8_t kShortOrigin = 1, kExtras = 2, kFirstSection = 4;
-constexpr uint8_t kAllFlags = kFirstSection * ((1 << kSectionKinds) - 1) | kExtras | kShortOrigin;
-/// Memory of a layer of a subtree: sizes and places of two segments, and the sizes again while their
-/// array grows.
+/// Flags of the mesh: the origin is of floats; there are attributes or remarks; it is a soup; and,
+/// from the third on, a bit for each section.
+constexpr uint8_t kShortOrigin = 1, kExtras = 2, kSoup = 128, kFirstSection = 4;
+constexpr uint8_t kAllFlags =
+    kFirstSection * ((1 << kSectionKinds) - 1) | kExtras | kShortOrigin | kSoup;
+/// Memory of a layer of a subtree: sizes and places of two segments, and the sizes again while
+/// their array grows.
 constexpr uint64_t kPairBytes = 48;
 /// Bytes of a section that are never reached.
 constexpr uint64_t kMostSectionBytes = uint64_t{1} << 56;
@@ -238,7 +239,7 @@ void WriteMesh(const FileTable& table, ByteWriter* out) {
   out->U8(table.coordinate_type);
   const bool is_short = HasShortOrigin(table);
   out->U8(static_cast<uint8_t>((is_short ? kShortOrigin : 0) | (table.HasExtras() ? kExtras : 0) |
-                               SectionFlags(table)));
+                               SectionFlags(table) | (table.is_soup ? kSoup : 0)));
   for (const double origin : table.origin) {
     if (is_short) {
       out->F32(static_cast<float>(origin));
@@ -316,10 +317,11 @@ void TableDecoder::DecodeMesh(ByteReader* in) {
   table_.faces = in->VarintUpTo(kMaxCount, "number of faces");
   table_.coordinate_type = in->U8();
   const uint8_t flags = in->U8();
-  if (flags > kAllFlags) in->Fail("flags of the mesh that are not known");
+  if ((flags & ~kAllFlags) != 0) in->Fail("flags of the mesh that are not known");
   for (size_t i = 0; i < kSectionKinds; ++i) {
     if ((flags & kFirstSection << i) != 0) table_.sections[i].emplace();
   }
+  table_.is_soup = (flags & kSoup) != 0;
   const bool is_short = (flags & kShortOrigin) != 0;
   for (double& origin : table_.origin) {
     origin = is_short ? static_cast<double>(in->F32()) : in->F64();
@@ -356,10 +358,10 @@ void TableDecoder::DecodeLayers(ByteReader* in) {
   // Fewer than 2^12 layers and 2^32 subtrees.
   const uint64_t pairs = (table_.layers.size() + count) * table_.subtrees.size();
   if (pairs > most_bytes_ / kPairBytes) {
-    throw Failure(ErrorKind::kLimit,
-                  std::string(file_) + ": table: the sizes of " + std::to_string(2 * pairs) +
-                      " segments would take " + std::to_string(kPairBytes * pairs >> 20) +
-                      " MiB, more than a file of this length may");
+    throw Failure(ErrorKind::kLimit, std::string(file_) + ": table: the sizes of " +
+                                         std::to_string(2 * pairs) + " segments would take " +
+                                         std::to_string(kPairBytes * pairs >> 20) +
+                                         " MiB, more than a file of this length may");
   }
   BitReader bits(in);
   ReadLayers(count, *in, &bits, &table_);

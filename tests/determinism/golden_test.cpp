@@ -30,6 +30,7 @@ constexpr uint64_t kMostEffortHash = 0x39199a74b7b04a2;
 constexpr uint64_t kExactHash = 0x8e4696ad855d4119;
 constexpr uint64_t kExactRestsHash = 0x931cd5477136984d;
 constexpr uint64_t kOtherHash = 0x686c170d43bdc25d;
+constexpr uint64_t kSoupHash = 0xa175c70b616620ab;
 constexpr uint64_t kAttributesHash = 0x603fb82ee7ad905b;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
@@ -103,6 +104,21 @@ TEST(GoldenTest, LeastAndMostEffortInSubtreesGiveTheKnownBytes) {
 
 TEST(GoldenTest, ExactIntegersGiveTheKnownBytes) {
   ExpectHash("kExactHash", kExactHash, ExactOptions(1500));
+}
+
+TEST(GoldenTest, ASoupInOrderGivesTheKnownBytes) {
+  TemporaryFolder folder;
+  const Mesh terrain = IntegerTerrain(40, 30, 3);
+  Mesh soup;
+  for (const Triple& face : terrain.faces) {
+    const uint64_t first = soup.positions.size();
+    soup.faces.push_back({first, first + 1, first + 2});
+    for (const uint64_t corner : face) soup.positions.push_back(terrain.positions[corner]);
+  }
+  WritePly(folder.File("scan.ply"), soup, CoordinateType::kInt);
+  EncodeOptions options = ExactOptions(500);
+  options.keep_order = true;
+  ExpectHashOf(folder.File("scan.ply"), "kSoupHash", kSoupHash, options);
 }
 
 TEST(GoldenTest, ExactCoordinatesOffAnyLatticeGiveTheKnownBytes) {

@@ -108,7 +108,7 @@ TEST(Format, ASoupOfFacetsComesBackAsStl) {
   WriteBytes(folder.File("soup.stl"), StlBytes(facets));
   const EncodeReport encoded =
       Encode(folder.File("soup.stl"), folder.File("soup.folp"), ExactOptions(200));
-  EXPECT_EQ(encoded.vertices, 3 * facets.size());
+  EXPECT_EQ(encoded.scan_vertices, 3 * facets.size());
   EXPECT_TRUE(Verify(folder.File("soup.folp"), folder.File("soup.stl")).lossless);
   const DecodeReport decoded = Decode(folder.File("soup.folp"), folder.File("out.stl"));
   EXPECT_EQ(decoded.faces, facets.size());

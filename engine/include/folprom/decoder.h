@@ -49,7 +49,8 @@ class MemoryDecoder {
   /// polygons. kCorrupt when it is damaged or cut; the mesh then stays that of the
   /// layers before only if nothing of the layer was applied, so stop using the decoder.
   Result<void> DecodeNextLayer();
-  /// The mesh of the layers decoded so far (at least one).
+  /// The mesh of the layers decoded so far (at least one). Of the last layer of a soup, such as STL
+  /// files are, each face has three vertices of its own.
   DecodedMesh Mesh() const;
 
  private:

@@ -39,8 +39,10 @@ struct SectionInfo {
 /// Outcome of EncodeFile. Warnings are sentences for the user (polygons triangulated, properties
 /// not coded, ...).
 struct EncodeReport {
-  uint64_t vertices = 0;
+  uint64_t vertices = 0;  ///< that are coded; of a scan that was welded, those that are left
   uint64_t faces = 0;
+  uint64_t scan_vertices = 0;  ///< before
+  bool is_soup = false;        ///< they come back
   uint64_t bytes = 0;
   uint64_t order_bytes = 0, polygon_bytes = 0;  ///< of these, what the order and the polygons take
   uint64_t subtrees = 0;
@@ -135,6 +137,9 @@ struct FileInfo {
   CodecSettings codec;
   std::vector<AttributeInfo> attributes;  ///< of the vertices; without bits unless has_bits
   std::vector<std::string> remarks;       ///< lines "comment" and "obj_info" of the scan
+  /// The scan's faces share no vertices: it has 3 `faces` of them, of which those of equal bits are
+  /// one in `vertices` and in the layers.
+  bool is_soup = false;
   SectionInfo order;              ///< of vertices and faces, and the first corner of each face
   SectionInfo polygons;           ///< faces of more than three corners
   uint64_t scan_faces = 0;        ///< where either is kept, and the last table is there
@@ -159,7 +164,8 @@ struct VerifyReport {
   uint64_t faces = 0;
   uint64_t attributes = 0;  ///< of the vertices, that were compared (against only)
   bool order_kept = false;  ///< vertices and faces come back in the scan's order
-  std::string reason;       ///< why not lossless; empty otherwise
+  bool welded = false;  ///< the file is of what is left when the original is welded (against only)
+  std::string reason;   ///< why not lossless; empty otherwise
 };
 
 /// Decodes everything and compares it with the digest of the file and, when `original` is not

@@ -120,6 +120,9 @@ struct EncodeOptions {
   /// Vertices and faces come back in the scan's order, and each face with its first corner first;
   /// no more than 1,431,655,765 of either. Only with Offsets::kLattice.
   bool keep_order = false;
+  /// Vertices whose coordinates have the same bits become one; in scans whose vertices have no
+  /// attributes that are kept. false: they come back, each where it was.
+  bool weld = false;
   Limits limits;                 ///< of the scan; the memory never alters bytes
   std::string temporary_folder;  ///< empty: $TMPDIR or /tmp
   bool overwrite = false;        ///< may replace the output

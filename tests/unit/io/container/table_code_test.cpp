@@ -233,6 +233,20 @@ TEST(TableCode, RefusesSizesThatTakeMoreMemoryThanItMay) {
   }
 }
 
+TEST(TableCode, KeepsThatTheMeshIsASoup) {
+  FileTable table = ExampleTable();
+  table.is_soup = true;
+  EXPECT_EQ(DecodeTable(EncodeTable(table)), table);
+  table.faces = (table.vertices - 1) / 3;
+  EXPECT_NE(TableFault(table), "");
+  table = ExampleTable();
+  table.is_soup = true;
+  table.schema.attributes.push_back({"red", ScalarType::kUint8});
+  table.attribute_ranges.push_back({0, 1});
+  table.attribute_bits.push_back(0);
+  EXPECT_NE(TableFault(table), "");
+}
+
 TEST(TableCode, RejectsSettingsLongerThanTheTable) {
   auto bytes = EncodeTable(ExampleTable());
   const size_t settings = 2 + 2 + 1 + 1 + 12 + 8 + 5;

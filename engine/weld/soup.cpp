@@ -1,0 +1,42 @@
+#include "engine/weld/soup.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace folprom {
+
+bool IsSoup(const io::MeshSource& source) {
+  if (source.triangle_count() == 0 || source.vertex_count() != 3 * source.triangle_count()) {
+    return false;
+  }
+  std::vector<io::Triangle> triangles;
+  uint64_t next = 0;
+  for (size_t block = 0; block < source.triangle_block_count(); ++block) {
+    source.ReadTriangleBlock(block, &triangles).value();
+    const bool is_soup = std::ranges::all_of(triangles, [&next](const io::Triangle& triangle) {
+      return std::ranges::all_of(triangle, [&next](uint64_t vertex) { return vertex == next++; });
+    });
+    if (!is_soup) return false;
+    if (block % 64 == 63) source.DropResident();
+  }
+  return true;
+}
+
+bool KeepsAttributes(const EncodeOptions& options) {
+  return options.attributes && options.codec.offsets == Offsets::kLattice;
+}
+
+WeldKind WeldFor(const io::MeshSource& source, const EncodeOptions& options) {
+  const bool has_attributes =
+      KeepsAttributes(options) && !source.vertex_schema().attributes.empty();
+  if (!options.weld) return !has_attributes && IsSoup(source) ? WeldKind::kSoup : WeldKind::kAsItIs;
+  if (has_attributes) {
+    throw Failure(ErrorKind::kInput,
+                  source.path() +
+                      ": vertices with attributes are not welded, for these may differ where the "
+                      "coordinates are equal; weld goes with attributes = false");
+  }
+  return WeldKind::kSurface;
+}
+
+}  // namespace folprom

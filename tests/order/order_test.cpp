@@ -43,6 +43,27 @@ void ExpectArraysBack(const std::string& scan, EncodeOptions options) {
   EXPECT_TRUE(verified.order_kept);
 }
 
+/// The same where the output has the format of the scan, as far as that is not PLY.
+void ExpectArraysBackInItsFormat(const std::string& scan) {
+  const std::string ending = std::filesystem::path(scan).extension().string();
+  if (ending == ".ply") return;
+  const TemporaryFolder folder;
+  Encode(scan, folder.File("scan.folp"), ExactInOrder(20'000));
+  Decode(folder.File("scan.folp"), folder.File("back" + ending));
+  ExpectSameArrays(ReadPlain(folder.File("back" + ending)), ReadPlain(scan));
+}
+
+TEST(Order, GivesTheArraysOfHardFilesBackInTheirOwnFormat) {
+  if (SharedFile("hard/truck.ply").empty()) GTEST_SKIP() << kNoSharedData;
+  const auto folder = std::filesystem::path(SharedFile("hard/truck.ply")).parent_path();
+  for (const std::string& name : NamesIn(folder)) {
+    const std::string path = (folder / name).string();
+    if (kSanitized && std::filesystem::file_size(path) > 800'000) continue;
+    SCOPED_TRACE(name);
+    ExpectArraysBackInItsFormat(path);
+  }
+}
+
 TEST(Order, GivesTheArraysOfHardFilesBack) {
   if (SharedFile("hard/truck.ply").empty()) GTEST_SKIP() << kNoSharedData;
   const auto folder = std::filesystem::path(SharedFile("hard/truck.ply")).parent_path();

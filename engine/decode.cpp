@@ -118,9 +118,11 @@ class DecodeJob {
         AddSectionBytes(&report);
       } else {
         report.warnings.push_back(
-            "the file is cut: the scan's order and polygons are not there, decoded are triangles "
-            "in the order of the file");
+            "the file is cut: the scan's order, polygons and attributes of faces are not there, "
+            "decoded are triangles in the order of the file");
       }
+    } else if (!table.face_schema.empty()) {
+      report.warnings.push_back("attributes of faces come back with the whole mesh only");
     }
     if (options_.use_region) {
       DecodeRegion(&report);
@@ -194,6 +196,7 @@ class DecodeJob {
     io::MeshShape shape{table.OutputVertices(), table.polygons};
     shape.triangles = table.faces;
     shape.largest_face = table.largest_face;
+    shape.face_schema = table.face_schema;
     auto writer = MakeWriter(shape);
     if (table.is_soup) {
       WriteSoup(mesh, *writer);
@@ -242,9 +245,9 @@ class DecodeJob {
       triangles.clear();
       for (const Face& f : chunk.triangles) triangles.push_back({f[0], f[1], f[2]});
       if (chunk.joins.empty()) {
-        writer.AppendFaces(triangles).value();
+        writer.AppendFaces(triangles, chunk.rows).value();
       } else {
-        writer.AppendPolygons(triangles, chunk.joins).value();
+        writer.AppendPolygons(triangles, chunk.joins, chunk.rows).value();
       }
       progress_.Advance(triangles.size());
     }

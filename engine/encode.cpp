@@ -51,6 +51,7 @@ EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptio
   };
   report.order_bytes = bytes_of(io::SectionKind::kOrder);
   report.polygon_bytes = bytes_of(io::SectionKind::kPolygons);
+  report.face_attribute_bytes = bytes_of(io::SectionKind::kFaceValues);
   report.vertices = table.vertices;
   report.scan_vertices = job.original().vertex_count();
   report.is_soup = table.is_soup;
@@ -62,6 +63,9 @@ EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptio
     const io::VertexAttribute& attribute = table.schema.attributes[a];
     report.attributes.push_back(
         {attribute.name, attribute.type, static_cast<double>(job.costs().attributes[a]) / 1024});
+  }
+  for (const io::FaceAttribute& attribute : table.face_schema.attributes) {
+    report.face_attributes.push_back({attribute.name, attribute.type, attribute.per_corner});
   }
   report.warnings = job.Warnings();
   return report;

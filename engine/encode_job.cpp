@@ -285,6 +285,8 @@ SectionChoice EncodeJob::Sections() const {
   choice.is_soup = is_soup_;
   choice.polygons =
       options_.codec.offsets == Offsets::kLattice && source_->notes().polygons_triangulated > 0;
+  choice.face_values =
+      KeepsAttributes() && !source_->face_schema().empty() && source_->triangle_count() > 0;
   return choice;
 }
 
@@ -343,6 +345,8 @@ io::FileTable EncodeJob::MakeTable() {
   table.codec = WriteParameters(parameters_);
   if (KeepsAttributes()) table.schema = source_->vertex_schema();
   if (options_.attributes) table.remarks = source_->remarks();
+  if (Sections().face_values) table.face_schema = source_->face_schema();
+  table.face_ranges = sections_.face_ranges;
   for (const ValueSpan& span : parameters_.attributes) {
     table.attribute_ranges.push_back({span.least, span.most});
   }
@@ -451,6 +455,9 @@ std::vector<std::string> EncodeJob::Warnings() const {
   if (!KeepsAttributes()) {
     for (const io::VertexAttribute& attribute : source_->vertex_schema().attributes) {
       ignored.push_back("vertex." + attribute.name);
+    }
+    for (const io::FaceAttribute& attribute : source_->face_schema().attributes) {
+      ignored.push_back("face." + attribute.name);
     }
   }
   if (!ignored.empty()) {

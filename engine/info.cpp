@@ -95,6 +95,10 @@ Result<FileInfo> ReadInfo(const std::string& input, const Limits& limits) {
     info.is_soup = table.is_soup;
     info.order = SectionOf(table, io::SectionKind::kOrder);
     info.polygons = SectionOf(table, io::SectionKind::kPolygons);
+    info.face_values = SectionOf(table, io::SectionKind::kFaceValues);
+    for (const io::FaceAttribute& attribute : table.face_schema.attributes) {
+      info.face_attributes.push_back({attribute.name, attribute.type, attribute.per_corner});
+    }
     info.scan_faces = table.polygons;
     DescribeLayers(file, &info);
     DescribeBits(file, &info);

@@ -30,6 +30,30 @@ void AppendAttributes(const std::vector<uint8_t>& rows, const io::VertexSchema& 
   }
 }
 
+/// The columns of rows.
+std::vector<DecodedFaceAttribute> FaceAttributesOf(const io::FaceSchema& schema,
+                                                   std::span<const uint8_t> rows) {
+  std::vector<DecodedFaceAttribute> attributes;
+  size_t of_face = 0, of_corner = schema.FaceBytes();
+  for (const io::FaceAttribute& attribute : schema.attributes) {
+    auto& values = attributes
+                       .emplace_back(DecodedFaceAttribute{
+                           attribute.name, attribute.type, attribute.per_corner, {}})
+                       .values;
+    const bool is_of_corner = attribute.per_corner > 0;
+    size_t& offset = is_of_corner ? of_corner : of_face;
+    for (size_t row = 0; row < rows.size(); row += schema.RowBytes()) {
+      for (size_t corner = 0; corner < (is_of_corner ? 3 : 1); ++corner) {
+        const auto some =
+            rows.subspan(row + offset + corner * schema.CornerBytes(), attribute.bytes());
+        values.insert(values.end(), some.begin(), some.end());
+      }
+    }
+    offset += attribute.bytes();
+  }
+  return attributes;
+}
+
 /// Models are made before a vertex is known, and the table may name a subtree in a few bytes.
 void CheckModels(const io::FileTable& table, uint64_t memory_bytes) {
   constexpr uint64_t kSubtree = uint64_t{352} << 10, kSeam = uint64_t{20} << 10;
@@ -52,6 +76,7 @@ struct ScanOrder {
   std::vector<uint32_t> vertices;
   std::vector<Face> faces;  ///< of these places; of a soup of these numbers
   std::vector<uint64_t> polygon_begin;
+  std::vector<uint8_t> rows;  ///< of the triangles: io::FaceSchema
 };
 
 /// Elements of `size` bytes in the order of the scan.
@@ -81,9 +106,10 @@ void MakeSoup(DecodedMesh* mesh) {
 }  // namespace
 
 struct MemoryDecoder::Impl {
-  /// memory_bytes: what the models may take.
-  Impl(io::ContainerReader opened, uint64_t memory_bytes)
-      : container(std::move(opened)),
+  /// most_bytes: what the models may take, and what faces have.
+  Impl(io::ContainerReader opened, uint64_t most_bytes)
+      : memory_bytes(most_bytes),
+        container(std::move(opened)),
         parameters(ParametersOf(container.table(), container.layers_total())) {
     const io::FileTable& table = container.table();
     CheckModels(table, memory_bytes);
@@ -115,11 +141,27 @@ struct MemoryDecoder::Impl {
     }
   }
 
+  /// The rows of the faces, and what their coder keeps.
+  void CheckFaceValues() const {
+    const io::FileTable& table = container.table();
+    const io::FaceSchema& schema = table.face_schema;
+    if (schema.empty()) return;
+    const uint64_t bytes = table.faces * schema.RowBytes() +
+                           table.vertices * FaceValueCoder::VertexBytes(schema) +
+                           schema.Columns() * FaceValueCoder::kModelBytes;
+    if (bytes <= memory_bytes) return;
+    throw Failure(ErrorKind::kLimit, "memory: the attributes of faces take " +
+                                         std::to_string(bytes >> 20) +
+                                         " MiB, more than the limit of " +
+                                         std::to_string(memory_bytes >> 20) + " MiB");
+  }
+
   /// Where the file tells how the scan stood in its own, and all of it is there.
   void DecodeSections() {
     if (!HasWholeSections(container)) return;
     const io::FileTable& table = container.table();
     CheckOrderable(table.vertices, table.faces, container.name());
+    CheckFaceValues();
     std::vector<uint32_t> number_of;  // along the curve, of each vertex as it was decoded
     for (const SubtreeReader& subtree : subtrees) {
       const auto& positions = subtree.state().positions();
@@ -159,6 +201,7 @@ struct MemoryDecoder::Impl {
         if (chunk.joins[i] == 0) result.polygon_begin.push_back(result.faces.size() + i);
       }
       result.faces.insert(result.faces.end(), chunk.triangles.begin(), chunk.triangles.end());
+      result.rows.insert(result.rows.end(), chunk.rows.begin(), chunk.rows.end());
     }
     order = std::move(result);
   }
@@ -187,6 +230,7 @@ struct MemoryDecoder::Impl {
     return all;
   }
 
+  uint64_t memory_bytes;
   io::ContainerReader container;
   CodecParameters parameters;
   std::deque<SubtreeReader> subtrees;  // addresses stay: seams point into them
@@ -277,6 +321,7 @@ DecodedMesh MemoryDecoder::Mesh() const {
     Reorder(order.vertices, ScalarSize(attribute.type), &attribute.values);
   }
   mesh.polygon_begin = order.polygon_begin;
+  mesh.face_attributes = FaceAttributesOf(table.face_schema, order.rows);
   return mesh;
 }
 

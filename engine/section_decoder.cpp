@@ -8,7 +8,8 @@ namespace folprom {
 namespace {
 
 std::string PlaceOf(const io::ContainerReader& container, io::SectionKind kind) {
-  constexpr std::array<const char*, io::kSectionKinds> kNames = {"order", "polygons"};
+  constexpr std::array<const char*, io::kSectionKinds> kNames = {"order", "polygons",
+                                                                 "attributes of faces"};
   return container.name() + ": " + kNames[static_cast<size_t>(kind)] + ": ";
 }
 
@@ -50,10 +51,16 @@ SectionDecoder::SectionDecoder(const io::ContainerReader& container,
       place_of_(space.Words(positions.size())),
       order_(mesh_, sequence_, place_of_, container.table().is_soup, space),
       order_blocks_(BlocksOf(container, io::SectionKind::kOrder)),
-      polygon_blocks_(BlocksOf(container, io::SectionKind::kPolygons)) {
-  if (!container.table().Section(io::SectionKind::kOrder)) {
+      polygon_blocks_(BlocksOf(container, io::SectionKind::kPolygons)),
+      value_blocks_(BlocksOf(container, io::SectionKind::kFaceValues)),
+      value_digest_(container.table().face_schema) {
+  const io::FileTable& table = container.table();
+  if (table.Section(io::SectionKind::kFaceValues)) {
+    values_.emplace(mesh_, table.face_schema, table.face_ranges, space);
+  }
+  if (!table.Section(io::SectionKind::kOrder)) {
     std::iota(sequence_.begin(), sequence_.end(), 0u);
-    set_.emplace(mesh_, nullptr, space);
+    if (table.Section(io::SectionKind::kPolygons)) set_.emplace(mesh_, nullptr, space);
     return;
   }
   InSection(io::SectionKind::kOrder, [&] {
@@ -68,10 +75,13 @@ SectionDecoder::SectionDecoder(const io::ContainerReader& container,
 bool SectionDecoder::Next(FaceChunk* chunk) {
   chunk->triangles.clear();
   chunk->joins.clear();
+  chunk->rows.clear();
   if (set_) {
     ReadSet(chunk);
-  } else {
+  } else if (container_.table().Section(io::SectionKind::kOrder)) {
     ReadOrder(chunk);
+  } else {
+    ReadNumbers(chunk);
   }
   if (chunk->triangles.empty()) {
     CheckEnd();
@@ -79,6 +89,11 @@ bool SectionDecoder::Next(FaceChunk* chunk) {
   }
   for (size_t i = 0; i < chunk->joins.size(); ++i) {
     digest_.Add(chunk->triangles[i], chunk->joins[i] != 0);
+  }
+  const size_t row_bytes = container_.table().face_schema.RowBytes();
+  for (size_t i = 0; i * row_bytes < chunk->rows.size(); ++i) {
+    value_digest_.Add(chunk->triangles[i], !chunk->joins.empty() && chunk->joins[i] != 0,
+                      std::span(chunk->rows).subspan(i * row_bytes, row_bytes));
   }
   return true;
 }
@@ -93,16 +108,18 @@ void SectionDecoder::ReadOrder(FaceChunk* chunk) {
     order_bits_.FinishSegment();
   });
   if (container_.table().is_soup) return;
+  if (container_.table().Section(io::SectionKind::kPolygons)) {
+    chunk->joins.resize(count);
+    InSection(io::SectionKind::kPolygons, [&] {
+      polygon_bits_.StartSegment(polygon_blocks_.Next());
+      joins_.Code(polygon_bits_, chunk->triangles, chunk->joins);
+      polygon_bits_.FinishSegment();
+    });
+  }
+  ReadValues(chunk);
   for (Face& face : chunk->triangles) {
     for (uint32_t& corner : face) corner = place_of_[corner];
   }
-  if (!container_.table().Section(io::SectionKind::kPolygons)) return;
-  chunk->joins.resize(count);
-  InSection(io::SectionKind::kPolygons, [&] {
-    polygon_bits_.StartSegment(polygon_blocks_.Next());
-    joins_.Code(polygon_bits_, chunk->triangles, chunk->joins);
-    polygon_bits_.FinishSegment();
-  });
 }
 
 void SectionDecoder::ReadSet(FaceChunk* chunk) {
@@ -111,6 +128,26 @@ void SectionDecoder::ReadSet(FaceChunk* chunk) {
     polygon_bits_.StartSegment(polygon_blocks_.Next());
     set_->Code(polygon_bits_, kOrderBlock, &chunk->triangles, &chunk->joins);
     polygon_bits_.FinishSegment();
+  });
+  ReadValues(chunk);
+}
+
+void SectionDecoder::ReadNumbers(FaceChunk* chunk) {
+  const uint32_t count = std::min(kOrderBlock, mesh_.face_count() - numbers_done_);
+  if (count == 0) return;
+  const auto faces = mesh_.faces.subspan(numbers_done_, count);
+  chunk->triangles.assign(faces.begin(), faces.end());
+  numbers_done_ += count;
+  ReadValues(chunk);
+}
+
+void SectionDecoder::ReadValues(FaceChunk* chunk) {
+  if (!values_) return;
+  chunk->rows.resize(chunk->triangles.size() * container_.table().face_schema.RowBytes());
+  InSection(io::SectionKind::kFaceValues, [&] {
+    value_bits_.StartSegment(value_blocks_.Next());
+    values_->Code(value_bits_, chunk->triangles, chunk->joins, chunk->rows);
+    value_bits_.FinishSegment();
   });
 }
 
@@ -123,8 +160,10 @@ void SectionDecoder::CheckEnd() {
     if (digest != section->digest) blocks.Fail("what was decoded differs from the digest");
   };
   digest_.Close();
+  value_digest_.Close();
   check(io::SectionKind::kOrder, order_blocks_, order_.digest());
   check(io::SectionKind::kPolygons, polygon_blocks_, digest_.digest());
+  check(io::SectionKind::kFaceValues, value_blocks_, value_digest_.digest());
   const bool has_polygons = table.Section(io::SectionKind::kPolygons).has_value();
   const uint64_t polygons = has_polygons ? digest_.polygons() : table.faces;
   const uint64_t largest =

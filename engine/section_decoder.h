@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/entropy/bit_coder.h"
+#include "engine/order/face_value_digest.h"
+#include "engine/order/face_values.h"
 #include "engine/order/order_coder.h"
 #include "engine/order/polygon_digest.h"
 #include "engine/order/polygon_joins.h"
@@ -27,6 +29,7 @@ struct FaceChunk {
   /// 1 for a triangle that goes on with the polygon of the triangle before, maybe of the chunk
   /// before: (a, b, c), (a, c, d) ...; else 0. Empty in a file of triangles.
   std::vector<uint8_t> joins;
+  std::vector<uint8_t> rows;  ///< see io::FaceSchema; empty where faces have no attributes
 };
 
 class SectionDecoder {
@@ -48,17 +51,23 @@ class SectionDecoder {
   auto InSection(io::SectionKind kind, Work work);
   void ReadOrder(FaceChunk* chunk);
   void ReadSet(FaceChunk* chunk);
+  void ReadNumbers(FaceChunk* chunk);
+  /// Of the chunk's triangles, which are of the numbers of the mesh here.
+  void ReadValues(FaceChunk* chunk);
   void CheckEnd();
 
   const io::ContainerReader& container_;
   OrderMesh mesh_;
   std::span<uint32_t> sequence_, place_of_;
   OrderCoder order_;
-  io::BlockReader order_blocks_, polygon_blocks_;
-  BitDecoder order_bits_, polygon_bits_;
+  io::BlockReader order_blocks_, polygon_blocks_, value_blocks_;
+  BitDecoder order_bits_, polygon_bits_, value_bits_;
   PolygonJoins joins_;
   std::optional<PolygonSet> set_;  ///< where the order is not kept
+  uint32_t numbers_done_ = 0;      ///< where neither order nor polygons are kept
+  std::optional<FaceValueCoder> values_;
   PolygonDigest digest_;
+  FaceValueDigest value_digest_;
 };
 
 }  // namespace folprom

@@ -21,15 +21,17 @@ namespace folprom {
 struct SectionChoice {
   bool order = false;
   bool polygons = false;
+  bool face_values = false;
   bool is_soup = false;  ///< what the order is of
 
-  bool any() const { return order || polygons; }
+  bool any() const { return order || polygons || face_values; }
 };
 
 struct EncodedSections {
   std::array<std::optional<io::SectionRecord>, io::kSectionKinds> records;
-  uint64_t polygons = 0;      ///< faces of the scan
-  uint64_t largest_face = 0;  ///< corners
+  uint64_t polygons = 0;                        ///< faces of the scan
+  uint64_t largest_face = 0;                    ///< corners
+  std::vector<io::AttributeRange> face_ranges;  ///< of the columns of the face schema
 };
 
 /// curve_places: subtree by subtree, the place of each vertex along the curve inside its subtree.

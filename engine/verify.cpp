@@ -117,7 +117,7 @@ class Comparison {
     job_.EncodeSubtrees(true, "match");
     MatchSink sink(file_.lattice(), job_.spill());
     std::optional<OrderedMesh> ordered;
-    if (table.Section(io::SectionKind::kPolygons)) {
+    if (table.HasSections()) {
       ordered.emplace(file_.container(), file_.lattice(), job_.spill(), memory_bytes);
     }
     TwoSinks both(sink, ordered ? &*ordered : nullptr);
@@ -137,7 +137,7 @@ class Comparison {
     ComparePositions(report);
     if (report->reason.empty()) CompareAttributes(report);
     if (report->reason.empty()) CompareFaces(sink.face_sum, report);
-    if (report->reason.empty() && ordered) ComparePolygons(*ordered, report);
+    if (report->reason.empty() && ordered) CompareSections(*ordered, report);
   }
 
  private:
@@ -145,7 +145,9 @@ class Comparison {
     EncodeOptions encode;
     encode.codec = file.parameters().settings;
     encode.exact = file.lattice().exact.has_value();
-    encode.attributes = false;  // they decide no order
+    // They decide no order, but what of sections is to be compared goes by the places along the
+    // curve.
+    encode.attributes = !file.table().face_schema.empty();
     encode.limits = options.limits;
     encode.temporary_folder = options.temporary_folder;
     return encode;
@@ -180,6 +182,8 @@ class Comparison {
     const io::MeshSource& source = job_.source();
     if (!table.schema.attributes.empty() && table.schema != source.vertex_schema()) {
       report->reason = "the vertices of scan and file have other attributes";
+    } else if (!table.face_schema.empty() && table.face_schema != source.face_schema()) {
+      report->reason = "the faces of scan and file have other attributes";
     } else if (!table.remarks.empty() && table.remarks != source.remarks()) {
       report->reason = "the comments of scan and file differ";
     }
@@ -261,21 +265,27 @@ class Comparison {
     CoordinateCheck::Judge(file_, same_bits, report);
   }
 
-  void ComparePolygons(OrderedMesh& decoded, VerifyReport* report) {
+  void CompareSections(OrderedMesh& decoded, VerifyReport* report) {
     CheckSections(decoded);
-    if (job_.source().notes().polygons_triangulated == 0) {
+    const io::FileTable& table = file_.table();
+    const auto& polygons = table.Section(io::SectionKind::kPolygons);
+    const auto& values = table.Section(io::SectionKind::kFaceValues);
+    if (polygons && job_.source().notes().polygons_triangulated == 0) {
       report->reason = "the file has polygons, the scan has none";
       return;
     }
     const io::MappedFile curve = job_.MapCurve();
-    const uint64_t digest = DigestOfPolygons(job_.source(), [&](uint64_t vertex) {
+    const auto number_of = [&](uint64_t vertex) {
       const VertexRef& ref = job_.scan().vertex_map()[vertex];
       const uint64_t first = first_vertex_[ref.subtree];
       return static_cast<uint32_t>(first + io::MappedArray<uint32_t>(curve)[first + ref.local]);
-    });
-    if (digest != file_.table().Section(io::SectionKind::kPolygons)->digest) {
+    };
+    if (polygons && DigestOfPolygons(job_.source(), number_of) != polygons->digest) {
       report->reason = "the polygons of scan and file differ";
+    } else if (values && DigestOfFaceValues(job_.source(), number_of) != values->digest) {
+      report->reason = "an attribute of a face differs from that of the scan in its bits";
     }
+    report->face_attributes = table.face_schema.attributes.size();
   }
 
   void CompareAttributes(VerifyReport* report) {
@@ -374,7 +384,8 @@ Result<VerifyReport> VerifyFile(const std::string& input, const std::string& ori
       report.reason = "the file is cut: " + std::to_string(present) + " of " + std::to_string(all) +
                       " layers are whole";
     } else if (file.table().HasSections() && !HasWholeSections(file.container())) {
-      report.reason = "the file is cut: the scan's order and polygons are not there";
+      report.reason =
+          "the file is cut: the scan's order, polygons and attributes of faces are not there";
     } else if (original.empty()) {
       CompareDigest(file, options, runner, progress, &report);
     } else {

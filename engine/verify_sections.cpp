@@ -43,14 +43,16 @@ void CompareVertices(const FolpFile& file, OrderedMesh& mesh, const io::MeshSour
 class FaceStream {
  public:
   explicit FaceStream(OrderedMesh& mesh) : mesh_(mesh) {}
-  /// The next triangle and its join; false at the end.
-  bool Next(Face* face, bool* is_joined) {
+  /// The next triangle, its join and its row; false at the end.
+  bool Next(Face* face, bool* is_joined, std::span<const uint8_t>* row) {
     if (at_ == chunk_.triangles.size()) {
       at_ = 0;
       if (!mesh_.ReadFaces(&chunk_)) return false;
     }
     *face = chunk_.triangles[at_];
     *is_joined = !chunk_.joins.empty() && chunk_.joins[at_] != 0;
+    const size_t row_bytes = chunk_.rows.size() / chunk_.triangles.size();
+    *row = std::span(chunk_.rows).subspan(at_ * row_bytes, row_bytes);
     ++at_;
     return true;
   }
@@ -66,25 +68,34 @@ void CompareFaces(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource&
   const bool has_polygons = file.table().Section(io::SectionKind::kPolygons).has_value();
   FaceStream stream(mesh);
   std::vector<io::Triangle> triangles;
-  std::vector<uint8_t> joins;
+  std::vector<uint8_t> joins, rows;
+  std::span<const uint8_t> row;
   const size_t blocks = source.triangle_block_count();
+  const bool has_values = !file.table().face_schema.empty();
+  report->face_attributes = file.table().face_schema.attributes.size();
   progress.StartStage("compare faces", blocks);
-  bool alike = true;
+  bool alike = true, same_values = true;
   Face face{};
   bool is_joined = false;
   for (size_t b = 0; b < blocks && alike; ++b) {
     progress.ThrowIfCancelled();
     source.ReadPolygonBlock(b, &triangles, &joins).value();
+    if (has_values) source.ReadFaceAttributes(b, &rows).value();
     for (size_t i = 0; i < triangles.size() && alike; ++i) {
-      alike = stream.Next(&face, &is_joined);
+      alike = stream.Next(&face, &is_joined, &row);
       for (size_t c = 0; c < 3; ++c) alike &= triangles[i][c] == face[c];
       if (has_polygons) alike &= (joins[i] != 0) == is_joined;
+      if (alike && has_values) {
+        same_values &= std::equal(row.begin(), row.end(), &rows[i * row.size()]);
+      }
     }
     source.DropResident();
     progress.Advance(1);
   }
-  if (!alike || stream.Next(&face, &is_joined)) {
+  if (!alike || stream.Next(&face, &is_joined, &row)) {
     report->reason = "the faces of scan and file differ, or their order";
+  } else if (!same_values) {
+    report->reason = "an attribute of a face differs from that of the scan in its bits";
   }
 }
 

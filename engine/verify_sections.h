@@ -60,6 +60,27 @@ uint64_t DigestOfPolygons(const io::MeshSource& source, NumberOf number_of) {
   return digest.digest();
 }
 
+/// The same of the attributes of its faces.
+template <class NumberOf>
+uint64_t DigestOfFaceValues(const io::MeshSource& source, NumberOf number_of) {
+  FaceValueDigest digest(source.face_schema());
+  const size_t row_bytes = source.face_schema().RowBytes();
+  std::vector<io::Triangle> triangles;
+  std::vector<uint8_t> joins, rows;
+  for (size_t block = 0; block < source.triangle_block_count(); ++block) {
+    source.ReadPolygonBlock(block, &triangles, &joins).value();
+    source.ReadFaceAttributes(block, &rows).value();
+    for (size_t i = 0; i < triangles.size(); ++i) {
+      const io::Triangle& t = triangles[i];
+      digest.Add({number_of(t[0]), number_of(t[1]), number_of(t[2])}, joins[i] != 0,
+                 std::span(rows).subspan(i * row_bytes, row_bytes));
+    }
+    if (block % 64 == 63) source.DropResident();
+  }
+  digest.Close();
+  return digest.digest();
+}
+
 /// How far a decoded coordinate is from the scan's, and whether their bits differ.
 struct CoordinateCheck {
   explicit CoordinateCheck(const FolpFile& file)

@@ -108,6 +108,7 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
                {"bytes", report.bytes},
                {"order_bytes", report.order_bytes},
                {"polygon_bytes", report.polygon_bytes},
+               {"face_attribute_bytes", report.face_attribute_bytes},
                {"bits_per_vertex", bits_per_vertex},
                {"seconds", seconds},
                {"peak_rss_bytes", PeakResidentBytes()},
@@ -117,6 +118,7 @@ void PrintReport(const EncodeFlags& flags, const EncodeReport& report, double se
                {"resumed_subtrees", report.resumed_subtrees},
                {"bits", BitsJson(report.bits)},
                {"attributes", AttributesJson(report.attributes, report.vertices)},
+               {"face_attributes", FaceAttributesJson(report.face_attributes)},
                {"warnings", report.warnings}});
   } else if (!flags.common.quiet) {
     Print(fmt::format(

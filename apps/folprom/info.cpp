@@ -114,6 +114,8 @@ Json InfoJson(const FileInfo& info) {
           {"comments", info.remarks},
           {"order", SectionJson(info.order)},
           {"polygons", SectionJson(info.polygons)},
+          {"face_values", SectionJson(info.face_values)},
+          {"face_attributes", FaceAttributesJson(info.face_attributes)},
           {"scan_faces", info.scan_faces > 0 ? Json(info.scan_faces) : Json()},
           {"table_bytes", info.table_bytes},
           {"checksum_bytes", info.checksum_bytes},
@@ -168,6 +170,15 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
   if (info.polygons.is_kept) {
     fmt::format_to(out, "keeps polygons, {} faces in the scan: {} bytes\n",
                    Grouped(info.scan_faces), Grouped(info.polygons.bytes));
+  }
+  for (const FaceAttributeInfo& attribute : info.face_attributes) {
+    fmt::format_to(out, "{} {} of each {}", NameOf(attribute.type), attribute.name,
+                   attribute.per_corner == 0 ? "face" : "corner");
+    if (attribute.per_corner > 1) fmt::format_to(out, ", {} of them", attribute.per_corner);
+    fmt::format_to(out, "\n");
+  }
+  if (info.face_values.is_kept) {
+    fmt::format_to(out, "keeps attributes of faces: {} bytes\n", Grouped(info.face_values.bytes));
   }
   if (info.has_bits) {
     fmt::format_to(out, "bits per vertex:");

@@ -42,6 +42,16 @@ Json AttributesJson(std::span<const AttributeInfo> attributes, uint64_t vertices
   return list;
 }
 
+Json FaceAttributesJson(std::span<const FaceAttributeInfo> attributes) {
+  Json list = Json::array();
+  for (const FaceAttributeInfo& attribute : attributes) {
+    list.push_back({{"name", attribute.name},
+                    {"type", NameOf(attribute.type)},
+                    {"per_corner", attribute.per_corner}});
+  }
+  return list;
+}
+
 std::string Printable(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';

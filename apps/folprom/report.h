@@ -29,6 +29,8 @@ Json OrNull(const std::optional<T>& value) {
 /// has no size that a distance could be a part of.
 Json DistanceJson(const DistanceStatistics& statistics, double diagonal);
 
+/// Of each its name, its type and how many numbers each corner has; 0 where the face has one.
+Json FaceAttributesJson(std::span<const FaceAttributeInfo> attributes);
 /// Of each its name, its type and the bits spent on it per vertex; null for no vertices.
 Json AttributesJson(std::span<const AttributeInfo> attributes, uint64_t vertices);
 /// Text of a file, without what would garble a terminal.

@@ -38,6 +38,7 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
                {"vertices", report.vertices},
                {"faces", report.faces},
                {"attributes", report.attributes},
+               {"face_attributes", report.face_attributes},
                {"order_kept", report.order_kept},
                {"welded", report.welded},
                {"reason", report.reason},
@@ -52,6 +53,9 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
                           flags.original);
       if (report.attributes > 0) {
         text += fmt::format(", {} attributes equal", report.attributes);
+      }
+      if (report.face_attributes > 0) {
+        text += fmt::format(", {} attributes of faces equal", report.face_attributes);
       }
     }
     if (report.welded) text += ", welded";

@@ -259,7 +259,7 @@ void PolygonSet::Settle(const PolygonTruth::Fan& fan, bool is_listed) {
 
 template <class Coder>
 void PolygonSet::Code(Coder& coder, uint32_t most, std::vector<Face>* triangles,
-                      std::vector<uint8_t>* joins) {
+                      std::vector<uint8_t>* joins, std::vector<PolygonTruth::Fan>* fans) {
   for (const size_t end = triangles->size() + most; !AtEnd() && triangles->size() < end;) {
     const uint32_t number = left_.Select(0);
     PolygonTruth::Fan fan{};
@@ -277,6 +277,7 @@ void PolygonSet::Code(Coder& coder, uint32_t most, std::vector<Face>* triangles,
       });
     }
     if constexpr (Coder::kEncoding) Settle(fan, is_listed);
+    if (fans != nullptr) fans->push_back(fan);
     size_before_ = last_size_;
     last_size_ = static_cast<uint32_t>(corners_.size());
     for (size_t i = 2; i < corners_.size(); ++i) {
@@ -287,7 +288,9 @@ void PolygonSet::Code(Coder& coder, uint32_t most, std::vector<Face>* triangles,
   }
 }
 
-template void PolygonSet::Code(BitEncoder&, uint32_t, std::vector<Face>*, std::vector<uint8_t>*);
-template void PolygonSet::Code(BitDecoder&, uint32_t, std::vector<Face>*, std::vector<uint8_t>*);
+template void PolygonSet::Code(BitEncoder&, uint32_t, std::vector<Face>*, std::vector<uint8_t>*,
+                               std::vector<PolygonTruth::Fan>*);
+template void PolygonSet::Code(BitDecoder&, uint32_t, std::vector<Face>*, std::vector<uint8_t>*,
+                               std::vector<PolygonTruth::Fan>*);
 
 }  // namespace folprom

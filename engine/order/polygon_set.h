@@ -47,9 +47,11 @@ class PolygonSet {
 
   bool AtEnd() const { return left_.left() == 0; }
   /// Codes polygons until they have `most` triangles or more, and appends them as in FaceChunk;
-  /// each begins with any of its corners. Throws Failure kCorrupt.
+  /// each begins with any of its corners. fans: of an encoder, what they are in the scan; may be
+  /// null. Throws Failure kCorrupt.
   template <class Coder>
-  void Code(Coder& coder, uint32_t most, std::vector<Face>* triangles, std::vector<uint8_t>* joins);
+  void Code(Coder& coder, uint32_t most, std::vector<Face>* triangles, std::vector<uint8_t>* joins,
+            std::vector<PolygonTruth::Fan>* fans = nullptr);
 
  private:
   /// Vertices that make triangles across an edge.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/formats/face_schema.h"
 #include "io/formats/vertex_schema.h"
 
 namespace folprom::io {
@@ -64,9 +65,10 @@ enum class SegmentPart : uint8_t { kInner = 0, kSeam = 1 };
 /// What may follow the last layer, in this order: what the scan's file has beyond its triangles.
 enum class SectionKind : uint8_t {
   kOrder = 0,  ///< of vertices and faces, and the corner that each face begins with
-  kPolygons    ///< which triangles are one face
+  kPolygons,   ///< which triangles are one face
+  kFaceValues  ///< attributes of faces and of their corners
 };
-inline constexpr size_t kSectionKinds = 2;
+inline constexpr size_t kSectionKinds = 3;
 
 struct SectionRecord {
   uint64_t bytes = 0;   ///< with the lengths and checksums of its blocks
@@ -89,6 +91,9 @@ struct FileTable {
   /// Of the vertices; each has a range below, and bits in the last table.
   VertexSchema schema;
   std::vector<AttributeRange> attribute_ranges;
+  /// Of the faces, and a range of each column; where there is a section of their values.
+  FaceSchema face_schema;
+  std::vector<AttributeRange> face_ranges;
   std::vector<std::string> remarks;  ///< lines of the scan's header: IsRemark
   // In the last table.
   double tolerance = 0;  ///< model units, per axis
@@ -123,7 +128,9 @@ struct FileTable {
   /// Vertices that the whole mesh has when it is written.
   uint64_t OutputVertices() const { return is_soup ? 3 * faces : vertices; }
   /// Has it anything that a scan of bare positions and faces has not.
-  bool HasExtras() const { return !schema.attributes.empty() || !remarks.empty(); }
+  bool HasExtras() const {
+    return !schema.attributes.empty() || !remarks.empty() || !face_schema.empty();
+  }
   bool operator==(const FileTable&) const = default;
 };
 

@@ -35,8 +35,15 @@ std::string AttributeFault(const FileTable& table, size_t number) {
   }
   if (static_cast<size_t>(attribute.type) >= kScalarTypes) return "a type that does not exist";
   const AttributeRange& range = table.attribute_ranges[number];
-  if (range.least > range.most || range.most > LargestOrdered(attribute.type)) {
+  const uint64_t largest = range.step > 0 ? kMostSteps : LargestOrdered(attribute.type);
+  if (range.least > range.most || range.most > largest) {
     return "range of values turned inside out, or beyond its type";
+  }
+  const double last = range.first + range.step * static_cast<double>(range.most);
+  const bool is_plain = range.step == 0 && range.first == 0;
+  if (!is_plain && (!IsFloat(attribute.type) || !(range.step > 0) || !std::isfinite(range.first) ||
+                    !std::isfinite(last))) {
+    return "rounded to steps that cannot be";
   }
   return {};
 }
@@ -58,6 +65,49 @@ std::string ExtrasFault(const FileTable& table) {
     bytes += remark.size();
   }
   return bytes > kMostRemarkBytes ? "more than 16 MiB of remarks" : "";
+}
+
+std::string FaceAttributeFault(const FileTable& table, size_t number, size_t column) {
+  const std::vector<FaceAttribute>& attributes = table.face_schema.attributes;
+  const FaceAttribute& attribute = attributes[number];
+  if (!IsFaceAttributeName(attribute.name)) return "a name that no attribute can have";
+  for (size_t other = 0; other < number; ++other) {
+    if (attributes[other].name == attribute.name) return "the name of another attribute";
+  }
+  for (size_t i = column; i < column + attribute.columns(); ++i) {
+    const AttributeRange& range = table.face_ranges[i];
+    if (range.least > range.most || range.most > LargestOrdered(attribute.type)) {
+      return "range of values turned inside out, or beyond its type";
+    }
+  }
+  return {};
+}
+
+std::string FaceSchemaFault(const FileTable& table) {
+  const FaceSchema& schema = table.face_schema;
+  if (table.Section(SectionKind::kFaceValues).has_value() == schema.empty()) {
+    return "attributes of faces without their section, or a section without any";
+  }
+  FaceSchema so_far;
+  for (size_t i = 0; i < schema.attributes.size(); ++i) {
+    const FaceAttribute& attribute = schema.attributes[i];
+    if (static_cast<size_t>(attribute.type) >= kScalarTypes ||
+        attribute.per_corner > kMostPerCorner || !so_far.HasRoomFor(attribute)) {
+      return "attributes of faces of no type, or too many";
+    }
+    so_far.attributes.push_back(attribute);
+  }
+  if (table.face_ranges.size() != schema.Columns()) return "attributes of faces without ranges";
+  if (schema.before_indices > schema.attributes.size()) {
+    return "the corners stand behind the attributes of their faces";
+  }
+  size_t column = 0;
+  for (size_t i = 0; i < schema.attributes.size(); ++i) {
+    const std::string fault = FaceAttributeFault(table, i, column);
+    if (!fault.empty()) return "attribute of faces " + std::to_string(i) + ": " + fault;
+    column += schema.attributes[i].columns();
+  }
+  return {};
 }
 
 std::string LayersFault(const FileTable& table) {
@@ -150,6 +200,7 @@ std::string SoupFault(const FileTable& table) {
   if (table.vertices > 3 * table.faces) return "more vertices than a soup of its faces has";
   if (!table.schema.attributes.empty()) return "attributes of the vertices of a soup";
   if (table.Section(SectionKind::kPolygons)) return "polygons in a soup";
+  if (table.Section(SectionKind::kFaceValues)) return "attributes of the faces of a soup";
   return {};
 }
 
@@ -165,8 +216,8 @@ std::string TableFault(const FileTable& table) {
     return "2^48 vertices or faces, or more";
   }
   for (const auto& fault :
-       {LatticeFault(table), ExtrasFault(table), LayersFault(table), SubtreesFault(table),
-        SegmentsFault(table), SectionsFault(table), SoupFault(table)}) {
+       {LatticeFault(table), ExtrasFault(table), FaceSchemaFault(table), LayersFault(table),
+        SubtreesFault(table), SegmentsFault(table), SectionsFault(table), SoupFault(table)}) {
     if (!fault.empty()) return fault;
   }
   return {};

@@ -166,18 +166,66 @@ std::string ReadText(size_t longest, std::string_view what, ByteReader* in) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+void WriteRange(const AttributeRange& range, ByteWriter* out) {
+  out->Varint(range.least);
+  out->Varint(range.most - range.least);
+}
+
+AttributeRange ReadRange(ScalarType type, ByteReader* in) {
+  const uint64_t largest = LargestOrdered(type);
+  AttributeRange range;
+  range.least = in->VarintUpTo(largest, "least value of an attribute");
+  range.most = range.least + in->VarintUpTo(largest - range.least, "range of an attribute");
+  return range;
+}
+
+ScalarType ReadType(ByteReader* in) {
+  const uint8_t type = in->U8();
+  if (type >= kScalarTypes) in->Fail("type of an attribute does not exist");
+  return static_cast<ScalarType>(type);
+}
+
+void WriteFaceSchema(const FileTable& table, ByteWriter* out) {
+  const std::vector<FaceAttribute>& attributes = table.face_schema.attributes;
+  out->Varint(attributes.size());
+  size_t column = 0;
+  for (const FaceAttribute& attribute : attributes) {
+    WriteText(attribute.name, out);
+    out->U8(static_cast<uint8_t>(attribute.type));
+    out->Varint(attribute.per_corner);
+    for (size_t i = 0; i < attribute.columns(); ++i) WriteRange(table.face_ranges[column++], out);
+  }
+  out->Varint(table.face_schema.before_indices);
+}
+
+void ReadFaceSchema(ByteReader* in, FileTable* table) {
+  const uint64_t count = in->VarintUpTo(kMostAttributes, "number of attributes of faces");
+  for (uint64_t i = 0; i < count; ++i) {
+    FaceAttribute attribute;
+    attribute.name = ReadText(kLongestAttributeName, "length of an attribute's name", in);
+    attribute.type = ReadType(in);
+    attribute.per_corner =
+        static_cast<uint32_t>(in->VarintUpTo(kMostPerCorner, "numbers of a corner"));
+    for (size_t c = 0; c < attribute.columns(); ++c) {
+      table->face_ranges.push_back(ReadRange(attribute.type, in));
+    }
+    table->face_schema.attributes.push_back(std::move(attribute));
+  }
+  table->face_schema.before_indices = in->VarintUpTo(count, "attributes before the corners");
+}
+
 void WriteExtras(const FileTable& table, ByteWriter* out) {
   const std::vector<VertexAttribute>& attributes = table.schema.attributes;
   out->Varint(attributes.size());
   for (size_t i = 0; i < attributes.size(); ++i) {
     WriteText(attributes[i].name, out);
     out->U8(static_cast<uint8_t>(attributes[i].type));
-    out->Varint(table.attribute_ranges[i].least);
-    out->Varint(table.attribute_ranges[i].most - table.attribute_ranges[i].least);
+    WriteRange(table.attribute_ranges[i], out);
   }
   out->Varint(table.schema.before_position);
   out->Varint(table.remarks.size());
   for (const std::string& remark : table.remarks) WriteText(remark, out);
+  if (!table.face_schema.empty()) WriteFaceSchema(table, out);
 }
 
 void ReadExtras(ByteReader* in, FileTable* table) {
@@ -185,13 +233,8 @@ void ReadExtras(ByteReader* in, FileTable* table) {
   for (uint64_t i = 0; i < count; ++i) {
     VertexAttribute& attribute = table->schema.attributes.emplace_back();
     attribute.name = ReadText(kLongestAttributeName, "length of an attribute's name", in);
-    const uint8_t type = in->U8();
-    if (type >= kScalarTypes) in->Fail("type of an attribute does not exist");
-    attribute.type = static_cast<ScalarType>(type);
-    AttributeRange& range = table->attribute_ranges.emplace_back();
-    const uint64_t largest = LargestOrdered(attribute.type);
-    range.least = in->VarintUpTo(largest, "least value of an attribute");
-    range.most = range.least + in->VarintUpTo(largest - range.least, "range of an attribute");
+    attribute.type = ReadType(in);
+    table->attribute_ranges.push_back(ReadRange(attribute.type, in));
   }
   table->attribute_bits.resize(count, 0);
   table->schema.before_position = in->VarintUpTo(count, "attributes before the position");
@@ -200,6 +243,7 @@ void ReadExtras(ByteReader* in, FileTable* table) {
   for (uint64_t i = 0; i < remarks; ++i) {
     table->remarks.push_back(ReadText(kMostRemarkBytes, "length of a remark", in));
   }
+  if (table->Section(SectionKind::kFaceValues)) ReadFaceSchema(in, table);
   if (!table->HasExtras()) in->Fail("neither attributes nor remarks where they are announced");
 }
 

@@ -11,14 +11,20 @@
 
 namespace folprom::io {
 
+/// What a face has beside its corners: FaceSchema.
+struct FaceValues {
+  std::span<const uint8_t> face;     ///< numbers of the face
+  std::span<const uint8_t> corners;  ///< numbers of its corners, corner by corner
+};
+
 /// Sees that what comes is what was announced. The functions below may throw Failure.
 class CountedWriter : public MeshWriter {
  public:
   Result<void> AppendVertices(std::span<const double> xyz,
                               std::span<const uint8_t> attributes) final;
-  Result<void> AppendFaces(std::span<const Triangle> faces) final;
-  Result<void> AppendPolygons(std::span<const Triangle> triangles,
-                              std::span<const uint8_t> joins) final;
+  Result<void> AppendFaces(std::span<const Triangle> faces, std::span<const uint8_t> rows) final;
+  Result<void> AppendPolygons(std::span<const Triangle> triangles, std::span<const uint8_t> joins,
+                              std::span<const uint8_t> rows) final;
   Result<void> Commit() final;
   /// Names the attributes, and counts the remarks, of a format that holds none.
   std::vector<std::string> Warnings() const override;
@@ -29,11 +35,13 @@ class CountedWriter : public MeshWriter {
   /// attributes: nothing but where HoldsAttributes.
   virtual void WriteVertices(std::span<const double> xyz, std::span<const uint8_t> attributes) = 0;
   virtual void WriteFaces(std::span<const Triangle> faces) = 0;
-  virtual void WritePolygon(std::span<const uint64_t> corners) = 0;
+  /// values: nothing but where HoldsFaceAttributes.
+  virtual void WritePolygon(std::span<const uint64_t> corners, const FaceValues& values) = 0;
   /// False: polygons are written as triangles.
   virtual bool HoldsPolygons() const { return true; }
   /// Attributes of vertices, and remarks.
   virtual bool HoldsAttributes() const { return false; }
+  virtual bool HoldsFaceAttributes() const { return false; }
   /// Completes the file but for the commit.
   virtual void Finish() = 0;
 
@@ -42,6 +50,7 @@ class CountedWriter : public MeshWriter {
   AtomicFile& file() { return *file_; }
 
  private:
+  void CheckRows(std::span<const Triangle> triangles, std::span<const uint8_t> rows) const;
   void CheckIndices(std::span<const Triangle> faces) const;
   void EndPolygon();
   [[noreturn]] void ThrowInternal(const char* reason) const;
@@ -50,9 +59,12 @@ class CountedWriter : public MeshWriter {
   MeshShape shape_;
   uint64_t vertices_left_;
   uint64_t faces_left_;
-  size_t stride_;  ///< bytes of the attributes of a vertex
+  size_t stride_;     ///< bytes of the attributes of a vertex
+  size_t row_bytes_;  ///< of the attributes of a triangle
   std::unique_ptr<AtomicFile> file_;
-  std::vector<uint64_t> corners_;  ///< of the polygon that may go on
+  // Of the polygon that may go on.
+  std::vector<uint64_t> corners_;
+  std::vector<uint8_t> face_values_, corner_values_;
 };
 
 /// All throw Failure.

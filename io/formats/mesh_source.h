@@ -10,6 +10,7 @@
 #include "folprom/limits.h"
 #include "folprom/result.h"
 #include "folprom/scalar_type.h"
+#include "io/formats/face_schema.h"
 #include "io/formats/vertex_schema.h"
 
 namespace folprom::io {
@@ -71,6 +72,17 @@ class MeshSource {
   /// order, lowest byte first, every bit kept. kInput where a value does not parse.
   virtual Result<void> ReadVertexAttributes(size_t /*block*/, std::vector<uint8_t>* values) const {
     values->clear();
+    return {};
+  }
+  /// What else each face has; nothing in most formats.
+  virtual const FaceSchema& face_schema() const {
+    static const FaceSchema kNothing;
+    return kNothing;
+  }
+  /// Replaces *rows by those of the block's triangles: see FaceSchema. kInput where a value does
+  /// not parse.
+  virtual Result<void> ReadFaceAttributes(size_t /*block*/, std::vector<uint8_t>* rows) const {
+    rows->clear();
     return {};
   }
   /// Lines of the header that say "comment" or "obj_info", whole.

@@ -7,6 +7,18 @@
 
 namespace folprom::io {
 
+namespace {
+
+template <class Attribute>
+std::string NamesOf(const std::vector<Attribute>& attributes) {
+  std::string names;
+  for (const Attribute& attribute : attributes)
+    names += (names.empty() ? "" : ", ") + attribute.name;
+  return names;
+}
+
+}  // namespace
+
 Result<MeshFormat> OutputFormat(const std::string& path) {
   if (const std::optional<MeshFormat> format = FormatByEnding(path)) return *format;
   return Error{ErrorKind::kUsage,
@@ -36,6 +48,7 @@ CountedWriter::CountedWriter(const std::string& path, const MeshShape& shape, bo
       vertices_left_(shape.vertices),
       faces_left_(shape.faces),
       stride_(shape.schema.Stride()),
+      row_bytes_(shape.face_schema.RowBytes()),
       file_(AtomicFile::Create(path, force).value()) {}
 
 Result<void> CountedWriter::AppendVertices(std::span<const double> xyz,
@@ -52,19 +65,31 @@ Result<void> CountedWriter::AppendVertices(std::span<const double> xyz,
   });
 }
 
-Result<void> CountedWriter::AppendFaces(std::span<const Triangle> faces) {
+Result<void> CountedWriter::AppendFaces(std::span<const Triangle> faces,
+                                        std::span<const uint8_t> rows) {
   return ResultOf([&] {
     if (faces.size() > faces_left_) ThrowInternal("more faces are written than were announced");
     faces_left_ -= faces.size();
     CheckIndices(faces);
-    WriteFaces(faces);
+    CheckRows(faces, rows);
+    if (rows.empty() || !HoldsFaceAttributes()) {
+      WriteFaces(faces);
+      return;
+    }
+    const size_t face_bytes = shape_.face_schema.FaceBytes();
+    for (size_t i = 0; i < faces.size(); ++i) {
+      const auto row = rows.subspan(i * row_bytes_, row_bytes_);
+      WritePolygon(faces[i], {row.first(face_bytes), row.subspan(face_bytes)});
+    }
   });
 }
 
 Result<void> CountedWriter::AppendPolygons(std::span<const Triangle> triangles,
-                                           std::span<const uint8_t> joins) {
+                                           std::span<const uint8_t> joins,
+                                           std::span<const uint8_t> rows) {
   return ResultOf([&] {
     CheckIndices(triangles);
+    CheckRows(triangles, rows);
     const auto begun = static_cast<uint64_t>(std::ranges::count(joins, 0));
     if (begun > faces_left_) ThrowInternal("more faces are written than were announced");
     faces_left_ -= begun;
@@ -72,12 +97,22 @@ Result<void> CountedWriter::AppendPolygons(std::span<const Triangle> triangles,
       WriteFaces(triangles);
       return;
     }
+    if (!HoldsFaceAttributes()) rows = {};
+    const size_t face_bytes = shape_.face_schema.FaceBytes();
+    const size_t corner_bytes = shape_.face_schema.CornerBytes();
     for (size_t i = 0; i < triangles.size(); ++i) {
+      const auto row = rows.empty() ? rows : rows.subspan(i * row_bytes_, row_bytes_);
       if (joins[i] == 0) {
         EndPolygon();
         corners_.assign(triangles[i].begin(), triangles[i].end());
+        if (row.empty()) continue;
+        const auto face = row.first(face_bytes), corners = row.subspan(face_bytes);
+        face_values_.assign(face.begin(), face.end());
+        corner_values_.assign(corners.begin(), corners.end());
       } else {
         corners_.push_back(triangles[i][2]);
+        const auto corner = row.empty() ? row : row.last(corner_bytes);
+        corner_values_.insert(corner_values_.end(), corner.begin(), corner.end());
       }
     }
   });
@@ -85,8 +120,15 @@ Result<void> CountedWriter::AppendPolygons(std::span<const Triangle> triangles,
 
 void CountedWriter::EndPolygon() {
   if (corners_.size() > shape_.largest_face) ThrowInternal("a face has too many corners");
-  if (!corners_.empty()) WritePolygon(corners_);
+  if (!corners_.empty()) WritePolygon(corners_, {face_values_, corner_values_});
   corners_.clear();
+}
+
+void CountedWriter::CheckRows(std::span<const Triangle> triangles,
+                              std::span<const uint8_t> rows) const {
+  if (rows.size() != triangles.size() * row_bytes_) {
+    ThrowInternal("the attributes of faces are not those that were announced");
+  }
 }
 
 void CountedWriter::CheckIndices(std::span<const Triangle> faces) const {
@@ -109,14 +151,15 @@ Result<void> CountedWriter::Commit() {
 }
 
 std::vector<std::string> CountedWriter::Warnings() const {
-  if (HoldsAttributes()) return {};
   std::vector<std::string> warnings;
+  if (!shape_.face_schema.empty() && !HoldsFaceAttributes()) {
+    warnings.push_back("attributes of faces are written to PLY only, lost are: " +
+                       NamesOf(shape_.face_schema.attributes));
+  }
+  if (HoldsAttributes()) return warnings;
   if (!shape_.schema.attributes.empty()) {
-    std::string names;
-    for (const VertexAttribute& attribute : shape_.schema.attributes) {
-      names += (names.empty() ? "" : ", ") + attribute.name;
-    }
-    warnings.push_back("attributes of vertices are written to PLY only, lost are: " + names);
+    warnings.push_back("attributes of vertices are written to PLY only, lost are: " +
+                       NamesOf(shape_.schema.attributes));
   }
   if (!shape_.remarks.empty()) {
     warnings.push_back("comments are written to PLY only, lost are " +

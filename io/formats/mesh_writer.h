@@ -19,6 +19,7 @@ struct MeshShape {
   uint64_t faces = 0;
   ScalarType coordinate_type = ScalarType::kFloat32;  ///< written as double where kFloat64
   VertexSchema schema = {};
+  FaceSchema face_schema = {};
   std::vector<std::string> remarks = {};  ///< lines for the header: IsRemark
   /// Where there are polygons: of what they are cut into, and corners of the largest.
   uint64_t triangles = 0, largest_face = 3;
@@ -41,11 +42,14 @@ class MeshWriter {
   /// attributes: of the same vertices, as MeshSource::ReadVertexAttributes gives them.
   virtual Result<void> AppendVertices(std::span<const double> xyz,
                                       std::span<const uint8_t> attributes = {}) = 0;
-  virtual Result<void> AppendFaces(std::span<const Triangle> faces) = 0;
+  /// rows: of the same faces, as MeshSource::ReadFaceAttributes gives them.
+  virtual Result<void> AppendFaces(std::span<const Triangle> faces,
+                                   std::span<const uint8_t> rows = {}) = 0;
   /// Faces as MeshSource::ReadPolygonBlock gives them; one may go on in the next call. Not to be
   /// mixed with AppendFaces.
   virtual Result<void> AppendPolygons(std::span<const Triangle> triangles,
-                                      std::span<const uint8_t> joins) = 0;
+                                      std::span<const uint8_t> joins,
+                                      std::span<const uint8_t> rows = {}) = 0;
   /// Checks that as many came as were announced (kInternal), syncs and renames into place.
   virtual Result<void> Commit() = 0;
   /// After Commit: what of the mesh the format does not hold, a sentence each.

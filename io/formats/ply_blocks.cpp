@@ -77,22 +77,52 @@ class BlockIndexer {
     const PlyTriangulator triangulator(plan, layout_.vertex_count);
     const std::vector<PlyProperty>& properties = plan.element->properties;
     const PlainTriangles plain = PlainTrianglesOf(plan);
+    ListCounts lists(properties.size());
     room_ = 0;
     for (uint64_t record = 0; record < plan.element->count; ++record) {
       if (plain.stride > 0) record += WalkPlainTriangles(plan, plain, cursor, record);
       if (record == plan.element->count) break;
       cursor.BeginRecord(record);
       const FilePosition start = cursor.position();
+      uint64_t corners = 0;
       for (size_t i = 0; i < properties.size(); ++i) {
+        const PlyProperty& property = properties[i];
         if (i == plan.index_list) {
-          WalkIndices(plan, triangulator, cursor, start, record);
+          corners = WalkIndices(plan, triangulator, cursor, start, record);
+        } else if (property.is_list) {
+          lists.items[i] = cursor.Count(property.count_type);
+          cursor.SkipItems(property.type, lists.items[i]);
         } else {
-          SkipProperty(properties[i], cursor);
+          cursor.Skip(property.type);
         }
       }
+      lists.AddFace(corners);
       cursor.EndRecord();
     }
+    if (plan.role == PlyRole::kFaces) blocks_.per_corner = lists.PerCorner();
   }
+
+  /// Are lists as long as a face has corners, or always so many times as long.
+  struct ListCounts {
+    explicit ListCounts(size_t properties)
+        : items(properties, 0), per_corner(properties, 0), is_even(properties, true) {}
+    /// A face of less than three corners is no face of the mesh.
+    void AddFace(uint64_t corners) {
+      for (size_t i = 0; i < items.size() && corners >= 3; ++i) {
+        const uint64_t each = items[i] / corners;
+        const bool fits = items[i] % corners == 0 && each <= kMostPerCorner;
+        is_even[i] = is_even[i] && fits && (!any || each == per_corner[i]);
+        per_corner[i] = is_even[i] ? static_cast<uint32_t>(each) : 0;
+      }
+      any |= corners >= 3;
+    }
+    std::vector<uint32_t> PerCorner() const { return per_corner; }
+
+    std::vector<uint64_t> items;  ///< of the face at hand, per property
+    std::vector<uint32_t> per_corner;
+    std::vector<bool> is_even;
+    bool any = false;
+  };
 
   /// Binary faces with a count of one byte and no other list: triangles have all the same size.
   struct PlainTriangles {
@@ -131,13 +161,14 @@ class BlockIndexer {
     return total;
   }
 
-  void WalkIndices(const PlyElementPlan& plan, const PlyTriangulator& triangulator, Cursor& cursor,
-                   FilePosition start, uint64_t record) {
+  /// Returns the number of indices.
+  uint64_t WalkIndices(const PlyElementPlan& plan, const PlyTriangulator& triangulator,
+                       Cursor& cursor, FilePosition start, uint64_t record) {
     const PlyProperty& list = plan.element->properties[plan.index_list];
     const uint64_t count = cursor.Count(list.count_type);
     if (plan.role == PlyRole::kStrips) {
       WalkLongList(plan, count, triangulator, cursor, record);
-      return;
+      return count;
     }
     if (count < 3) {
       ++blocks_.notes.polygons_dropped;
@@ -145,11 +176,13 @@ class BlockIndexer {
       ++blocks_.notes.polygons_triangulated;
     }
     if (count > kBlockTriangles + 2) {
+      blocks_.cuts_faces = true;
       WalkLongList(plan, count, triangulator, cursor, record);
-      return;
+      return count;
     }
     cursor.SkipItems(list.type, count);
     if (count >= 3) AddTriangles(count - 2, {plan_index_, start, record, 0, {}, 0}, cursor);
+    return count;
   }
 
   /// A list whose triangles are counted one by one, so that blocks can begin inside of it.

@@ -25,7 +25,11 @@ struct PlyBlocks {
   std::vector<FilePosition> vertices;  ///< one for each kBlockVertices vertices
   std::vector<PlyTriangleBlock> triangles;
   uint64_t triangle_count = 0;
-  SourceNotes notes;  ///< without the ignored properties
+  /// Of each property of the faces: how many items its lists have for each corner; 0 where it is no
+  /// list, or not of each face the same.
+  std::vector<uint32_t> per_corner;
+  bool cuts_faces = false;  ///< a block begins inside of a face
+  SourceNotes notes;        ///< without the ignored properties
 };
 
 /// Walks the body once, with a bounded resident size. Throws Failure kInput for a file that holds

@@ -82,12 +82,17 @@ void PlanIndexList(const std::string& path, PlyElementPlan& plan) {
   plan.index_list = *index;
 }
 
+/// What may be an attribute of a face: the walk tells which lists are.
+bool IsFaceCandidate(const PlyElementPlan& plan, size_t property) {
+  return plan.role == PlyRole::kFaces && property != plan.index_list;
+}
+
 bool IsCoded(const PlyElementPlan& plan, size_t property) {
   switch (plan.role) {
     case PlyRole::kVertices:
       return std::ranges::find(plan.coordinates, property) != plan.coordinates.end() ||
              std::ranges::binary_search(plan.attributes, property);
-    case PlyRole::kFaces:
+    case PlyRole::kFaces:  // all the others are candidates
     case PlyRole::kStrips:
       return property == plan.index_list;
     case PlyRole::kOther:
@@ -119,7 +124,7 @@ PlyLayout PlanPlyLayout(const PlyHeader& header, const std::string& path) {
       const PlyProperty& property = element.properties[i];
       plan.has_lists |= property.is_list;
       plan.smallest_record += ScalarSize(property.is_list ? property.count_type : property.type);
-      if (!IsCoded(plan, i)) {
+      if (!IsCoded(plan, i) && !IsFaceCandidate(plan, i)) {
         layout.ignored_properties.push_back(element.name + "." + property.name);
       }
     }
@@ -127,6 +132,29 @@ PlyLayout PlanPlyLayout(const PlyHeader& header, const std::string& path) {
   }
   if (!has_vertices) throw Failure(ErrorKind::kInput, path + ": has no element vertex");
   return layout;
+}
+
+void PlanFaceAttributes(const std::vector<uint32_t>& per_corner, bool keeps_any,
+                        PlyElementPlan& faces, PlyLayout& layout) {
+  const std::vector<PlyProperty>& properties = faces.element->properties;
+  FaceSchema& schema = layout.face_schema;
+  for (size_t i = 0; i < properties.size(); ++i) {
+    const PlyProperty& property = properties[i];
+    if (i == faces.index_list) {
+      schema.before_indices = schema.attributes.size();
+      continue;
+    }
+    const FaceAttribute attribute{property.name, property.type, per_corner[i]};
+    const bool kept = keeps_any && IsFaceAttributeName(property.name) &&
+                      property.is_list == (attribute.per_corner > 0) &&
+                      schema.HasRoomFor(attribute);
+    if (!kept) {
+      layout.ignored_properties.push_back(faces.element->name + "." + property.name);
+      continue;
+    }
+    faces.attributes.push_back(i);
+    schema.attributes.push_back(attribute);
+  }
 }
 
 }  // namespace folprom::io

@@ -18,7 +18,8 @@ struct PlyElementPlan {
   PlyRole role = PlyRole::kOther;
   /// kVertices: indices of the properties x, y, z.
   std::array<size_t, 3> coordinates{};
-  /// kVertices: indices of the properties that are attributes, ascending.
+  /// kVertices, kFaces: indices of the properties that are attributes, ascending; of faces, lists
+  /// only if PlyBlocks::per_corner has them.
   std::vector<size_t> attributes;
   /// kFaces, kStrips: index of the list of vertex indices.
   size_t index_list = 0;
@@ -32,11 +33,18 @@ struct PlyLayout {
   uint64_t vertex_count = 0;
   ScalarType coordinate_type = ScalarType::kFloat32;
   VertexSchema schema;
+  FaceSchema face_schema;
   std::vector<std::string> ignored_properties;
 };
 
 /// The plan points into `header`. Throws Failure kInput naming `path` and the element where the
 /// file is no mesh: no vertices, a coordinate missing or a list, faces without integer indices.
 PlyLayout PlanPlyLayout(const PlyHeader& header, const std::string& path);
+
+/// Completes the plan of the faces. per_corner: of each property how many items its lists have for
+/// each corner; 0 for those that are no such lists. keeps_any: false where no attribute of a face
+/// can be kept. What is not kept becomes an ignored property.
+void PlanFaceAttributes(const std::vector<uint32_t>& per_corner, bool keeps_any,
+                        PlyElementPlan& faces, PlyLayout& layout);
 
 }  // namespace folprom::io

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <utility>
 
 #include "io/formats/ply_ascii_cursor.h"
@@ -176,6 +177,99 @@ class TriangleReader {
   std::vector<uint8_t>* joins_;  ///< may be null
 };
 
+/// The rows of whole faces: FaceSchema.
+template <class Cursor>
+class FaceRowReader {
+ public:
+  FaceRowReader(Cursor& cursor, const PlyElementPlan& plan, const FaceSchema& schema)
+      : cursor_(cursor),
+        plan_(plan),
+        schema_(schema),
+        face_bytes_(schema.FaceBytes()),
+        corner_bytes_(schema.CornerBytes()) {}
+
+  /// From the record on, until there are so many triangles.
+  void Read(uint64_t record, uint64_t triangles, std::vector<uint8_t>* rows) {
+    const size_t bytes = triangles * schema_.RowBytes();
+    rows->clear();
+    rows->reserve(bytes);
+    for (; rows->size() < bytes; ++record) {
+      cursor_.BeginRecord(record);
+      const uint64_t corners = ReadRecord();
+      cursor_.EndRecord();
+      AddRows(corners, rows);
+    }
+  }
+
+ private:
+  /// Returns the number of corners.
+  uint64_t ReadRecord() {
+    const std::vector<PlyProperty>& properties = plan_.element->properties;
+    uint64_t corners = 0;
+    size_t next = 0, of_face = 0, of_corner = 0;
+    face_.resize(face_bytes_);
+    for (size_t p = 0; p < properties.size(); ++p) {
+      const PlyProperty& property = properties[p];
+      if (p == plan_.index_list) {
+        corners = cursor_.Count(property.count_type);
+        cursor_.SkipItems(property.type, corners);
+      } else if (next == plan_.attributes.size() || plan_.attributes[next] != p) {
+        SkipProperty(property, cursor_);
+      } else if (const FaceAttribute& attribute = schema_.attributes[next++];
+                 attribute.per_corner == 0) {
+        ReadValue(cursor_, property.type, &face_[of_face]);
+        of_face += attribute.bytes();
+      } else {
+        ReadCorners(property, attribute, of_corner);
+        of_corner += attribute.bytes();
+      }
+    }
+    return corners;
+  }
+
+  /// Of a face of less than three corners the list may have any length.
+  void ReadCorners(const PlyProperty& property, const FaceAttribute& attribute, size_t at) {
+    const uint64_t items = cursor_.Count(property.count_type);
+    const uint64_t corners = items / attribute.per_corner;
+    if (corners < 3 || corners > kBlockTriangles + 2) {
+      cursor_.SkipItems(property.type, items);
+      return;
+    }
+    if (corners_.size() < corners * corner_bytes_) corners_.resize(corners * corner_bytes_);
+    for (uint64_t corner = 0; corner < corners; ++corner) {
+      uint8_t* to = &corners_[corner * corner_bytes_ + at];
+      for (uint32_t i = 0; i < attribute.per_corner; ++i) {
+        to = ReadValue(cursor_, property.type, to);
+      }
+    }
+  }
+
+  void AddRows(uint64_t corners, std::vector<uint8_t>* rows) const {
+    // The walk saw that lists are long enough, unless the file has changed since.
+    if (corner_bytes_ > 0 && corners >= 3 && corners_.size() < corners * corner_bytes_) {
+      throw cursor_.place().Fault("the file has changed while it was read");
+    }
+    const auto add_corner = [&](uint64_t corner) {
+      const auto from = corners_.begin() + static_cast<std::ptrdiff_t>(corner * corner_bytes_);
+      if (corner_bytes_ > 0) {
+        rows->insert(rows->end(), from, from + static_cast<std::ptrdiff_t>(corner_bytes_));
+      }
+    };
+    for (uint64_t corner = 2; corner < corners; ++corner) {
+      rows->insert(rows->end(), face_.begin(), face_.end());
+      add_corner(0);
+      add_corner(corner - 1);
+      add_corner(corner);
+    }
+  }
+
+  Cursor& cursor_;
+  const PlyElementPlan& plan_;
+  const FaceSchema& schema_;
+  size_t face_bytes_, corner_bytes_;
+  std::vector<uint8_t> face_, corners_;  ///< of the record
+};
+
 class PlySource final : public MeshSource {
  public:
   PlySource(MappedFile file, const Limits& limits)
@@ -183,11 +277,16 @@ class PlySource final : public MeshSource {
         header_(ParsePlyHeader(file_.bytes(), file_.path(), limits)),
         layout_(PlanPlyLayout(header_, file_.path())),
         blocks_(IndexPlyBlocks(file_, header_, layout_)) {
+    const bool has_strips =
+        std::ranges::count(layout_.elements, PlyRole::kStrips, &PlyElementPlan::role) > 0;
+    for (PlyElementPlan& plan : layout_.elements) {
+      if (plan.role == PlyRole::kVertices) vertices_ = plan;
+      if (plan.role == PlyRole::kFaces) {
+        PlanFaceAttributes(blocks_.per_corner, !has_strips && !blocks_.cuts_faces, plan, layout_);
+      }
+    }
     blocks_.notes.ignored_properties = std::move(layout_.ignored_properties);
     blocks_.notes.remarks_dropped = header_.remarks_dropped;
-    for (const PlyElementPlan& plan : layout_.elements) {
-      if (plan.role == PlyRole::kVertices) vertices_ = plan;
-    }
   }
 
   const std::string& path() const override { return file_.path(); }
@@ -235,6 +334,18 @@ class PlySource final : public MeshSource {
   }
 
   size_t triangle_block_count() const override { return blocks_.triangles.size(); }
+
+  const FaceSchema& face_schema() const override { return layout_.face_schema; }
+  Result<void> ReadFaceAttributes(size_t block, std::vector<uint8_t>* rows) const override {
+    rows->clear();
+    if (layout_.face_schema.empty()) return {};
+    const PlyTriangleBlock& where = blocks_.triangles[block];
+    const PlyElementPlan& plan = layout_.elements[where.plan];
+    return WithCursor(plan, where.position, [&]<class Cursor>(Cursor& cursor) {
+      FaceRowReader<Cursor>(cursor, plan, layout_.face_schema)
+          .Read(where.record, where.triangles, rows);
+    });
+  }
 
  private:
   Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,

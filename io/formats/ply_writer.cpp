@@ -16,21 +16,43 @@ namespace {
 
 constexpr uint64_t kFaceBytes = 1 + 3 * sizeof(uint32_t);
 
-std::string PropertyLine(const VertexAttribute& attribute) {
+/// As other programs call it.
+const char* PlyName(ScalarType type) {
   static constexpr std::array<const char*, kScalarTypes> kNames{"char", "uchar", "short", "ushort",
                                                                 "int",  "uint",  "float", "double"};
-  return std::string("property ") + kNames[static_cast<size_t>(attribute.type)] + " " +
-         attribute.name + "\n";
+  return kNames[static_cast<size_t>(type)];
 }
 
-/// Does the number of corners need more than a byte.
-bool HasLongFaces(const MeshShape& shape) {
-  return shape.largest_face > std::numeric_limits<uint8_t>::max();
+/// Does the number of items of a list need more than a byte.
+bool HasLongLists(const MeshShape& shape, uint64_t per_corner) {
+  return shape.largest_face * per_corner > std::numeric_limits<uint8_t>::max();
+}
+const char* CountName(const MeshShape& shape, uint64_t per_corner) {
+  return HasLongLists(shape, per_corner) ? "uint " : "uchar ";
+}
+
+std::string FaceProperties(const MeshShape& shape) {
+  const bool needs_uint = shape.vertices > uint64_t{std::numeric_limits<int32_t>::max()};
+  const std::vector<FaceAttribute>& attributes = shape.face_schema.attributes;
+  std::string lines;
+  for (size_t i = 0; i <= attributes.size(); ++i) {
+    if (i == shape.face_schema.before_indices) {
+      lines += std::string("property list ") + CountName(shape, 1) + (needs_uint ? "uint" : "int") +
+               " vertex_indices\n";
+    }
+    if (i == attributes.size()) break;
+    const FaceAttribute& attribute = attributes[i];
+    lines += "property ";
+    if (attribute.per_corner > 0) {
+      lines += std::string("list ") + CountName(shape, attribute.per_corner);
+    }
+    lines += std::string(PlyName(attribute.type)) + " " + attribute.name + "\n";
+  }
+  return lines;
 }
 
 std::string Header(const MeshShape& shape) {
   const std::string type = shape.coordinate_type == ScalarType::kFloat64 ? "double" : "float";
-  const bool needs_uint = shape.vertices > uint64_t{std::numeric_limits<int32_t>::max()};
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   for (const std::string& remark : shape.remarks) header += remark + "\n";
   header += "element vertex " + std::to_string(shape.vertices) + "\n";
@@ -39,11 +61,12 @@ std::string Header(const MeshShape& shape) {
     if (i == shape.schema.before_position) {
       for (const char* name : {"x", "y", "z"}) header += "property " + type + " " + name + "\n";
     }
-    if (i < attributes.size()) header += PropertyLine(attributes[i]);
+    if (i == attributes.size()) break;
+    header +=
+        std::string("property ") + PlyName(attributes[i].type) + " " + attributes[i].name + "\n";
   }
-  return header + "element face " + std::to_string(shape.faces) + "\nproperty list " +
-         (HasLongFaces(shape) ? "uint " : "uchar ") + (needs_uint ? "uint" : "int") +
-         " vertex_indices\nend_header\n";
+  return header + "element face " + std::to_string(shape.faces) + "\n" + FaceProperties(shape) +
+         "end_header\n";
 }
 
 /// Bytes of the attributes before the position.
@@ -73,6 +96,7 @@ class PlyWriter final : public CountedWriter {
 
  private:
   bool HoldsAttributes() const override { return true; }
+  bool HoldsFaceAttributes() const override { return true; }
 
   void WriteVertices(std::span<const double> xyz, std::span<const uint8_t> attributes) override {
     for (size_t i = 0; i < xyz.size(); i += 3, attributes = attributes.subspan(stride_)) {
@@ -100,15 +124,42 @@ class PlyWriter final : public CountedWriter {
     }
   }
 
-  void WritePolygon(std::span<const uint64_t> corners) override {
-    const auto count = static_cast<uint32_t>(corners.size());
-    if (HasLongFaces(shape())) {
-      StoreLittleEndian(count, faces_.Extend(sizeof count));
-    } else {
-      *faces_.Extend(1) = static_cast<uint8_t>(count);
+  void WritePolygon(std::span<const uint64_t> corners, const FaceValues& values) override {
+    const FaceSchema& schema = shape().face_schema;
+    size_t of_face = 0, of_corner = 0;
+    for (size_t i = 0; i <= schema.attributes.size(); ++i) {
+      if (i == schema.before_indices) WriteIndices(corners);
+      if (i == schema.attributes.size()) break;
+      const FaceAttribute& attribute = schema.attributes[i];
+      if (attribute.per_corner == 0) {
+        std::ranges::copy(values.face.subspan(of_face, attribute.bytes()),
+                          faces_.Extend(attribute.bytes()));
+        of_face += attribute.bytes();
+        continue;
+      }
+      WriteCount(corners.size() * attribute.per_corner,
+                 HasLongLists(shape(), attribute.per_corner));
+      for (size_t corner = 0; corner < corners.size(); ++corner) {
+        std::ranges::copy(
+            values.corners.subspan(corner * schema.CornerBytes() + of_corner, attribute.bytes()),
+            faces_.Extend(attribute.bytes()));
+      }
+      of_corner += attribute.bytes();
     }
+  }
+
+  void WriteIndices(std::span<const uint64_t> corners) {
+    WriteCount(corners.size(), HasLongLists(shape(), 1));
     for (const uint64_t index : corners) {
       StoreLittleEndian(static_cast<uint32_t>(index), faces_.Extend(sizeof(uint32_t)));
+    }
+  }
+
+  void WriteCount(size_t count, bool is_long) {
+    if (is_long) {
+      StoreLittleEndian(static_cast<uint32_t>(count), faces_.Extend(sizeof(uint32_t)));
+    } else {
+      *faces_.Extend(1) = static_cast<uint8_t>(count);
     }
   }
 

@@ -127,7 +127,7 @@ class StlWriter final : public CountedWriter {
   }
 
   bool HoldsPolygons() const override { return false; }
-  void WritePolygon(std::span<const uint64_t>) override {}
+  void WritePolygon(std::span<const uint64_t>, const FaceValues&) override {}
 
   uint64_t FacetCount() const { return shape().triangles > 0 ? shape().triangles : shape().faces; }
 

@@ -56,10 +56,10 @@ class TextWriter final : public CountedWriter {
   }
 
   void WriteFaces(std::span<const Triangle> faces) override {
-    for (const Triangle& face : faces) WritePolygon(face);
+    for (const Triangle& face : faces) WritePolygon(face, {});
   }
 
-  void WritePolygon(std::span<const uint64_t> corners) override {
+  void WritePolygon(std::span<const uint64_t> corners, const FaceValues&) override {
     faces_.Add(form_.face);
     if (form_.counts_corners) AddNumber("", corners.size());
     for (const uint64_t index : corners) AddNumber(" ", index + form_.first_index);

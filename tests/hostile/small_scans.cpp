@@ -60,6 +60,23 @@ std::vector<SmallScan> SmallScans() {
       {"geomview.off", BinaryOff(true), false},
       {"binary.off", BinaryOff(false), false},
   };
+  std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+      "float z\nelement face 3\nproperty uchar red\nproperty list uchar int vertex_indices\n"
+      "property list uchar short texcoord\nend_header\n";
+  scans.push_back(
+      {"faces.ply", header + "0 0 0\n1 0 0\n1 1 0\n0 1e1 0.5\n7 4 0 1 2 3 8 0 1 2 3 4 5 6 7\n"
+                             "8 3 0 1 2 6 1 2 3 4 5 6\n9 2 0 1 1 5\n"});
+  header.replace(header.find("ascii"), 5, "binary_little_endian");
+  for (int i = 0; i < 12; ++i) Put(static_cast<float>(i * i), &header);
+  for (const uint8_t corners : {3, 4, 2}) {
+    Put(static_cast<uint8_t>(40 * corners), &header);
+    Put(corners, &header);
+    for (int32_t i = 0; i < corners; ++i) Put(i, &header);
+    Put(static_cast<uint8_t>(2 * corners), &header);
+    for (int16_t i = 0; i < 2 * corners; ++i) Put(i, &header);
+  }
+  scans.push_back({"faces_little.ply", header, false});
   for (const std::string name :
        {"ascii", "strips_ascii", "little", "plain_little", "big", "plain_big"}) {
     const Bytes bytes = FileContent(FOLPROM_SOURCE_DIR "/tests/fuzz/seeds/ply/" + name + ".ply");

@@ -19,24 +19,33 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-/// A file with both sections, or with polygons alone.
+/// A file with all sections, or without the order.
 Bytes SmallFile(bool keep_order) {
   const TemporaryFolder folder;
-  std::string text = "OFF\n100 81 0\n";
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 100\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 81\nproperty uchar red\n"
+      "property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n";
   for (int i = 0; i < 100; ++i) {
     text += std::to_string(i % 10) + " " + std::to_string(i / 10) + " " +
             std::to_string(i * i % 5) + "\n";
   }
   for (int i = 0; i < 81; ++i) {
     const int a = i / 9 * 10 + i % 9;
-    text += "4 " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 11) +
-            " " + std::to_string(a + 10) + "\n";
+    for (const int value : {i / 20, 4, a, a + 1, a + 11, a + 10, 8}) {
+      text += std::to_string(value);
+      text += ' ';
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      text += std::to_string((a + corner) % 40);
+      text += corner < 7 ? ' ' : '\n';
+    }
   }
-  WriteBytes(folder.File("scan.off"), text);
+  WriteBytes(folder.File("scan.ply"), text);
   EncodeOptions options;
   options.keep_order = keep_order;
   options.codec.subtree_vertices = 40;
-  Encode(folder.File("scan.off"), folder.File("scan.folp"), options);
+  Encode(folder.File("scan.ply"), folder.File("scan.folp"), options);
   return FileBytes(folder.File("scan.folp"));
 }
 
@@ -119,7 +128,8 @@ TEST(DamagedSection, ForgedBitsAreAnErrorOrTheSameMesh) {
     const Bytes file = SmallFile(keep_order);
     const io::ContainerReader container = Open(file);
     const DecodedMesh honest = MeshOf(file);
-    for (const auto kind : {io::SectionKind::kOrder, io::SectionKind::kPolygons}) {
+    for (const auto kind :
+         {io::SectionKind::kOrder, io::SectionKind::kPolygons, io::SectionKind::kFaceValues}) {
       if (!container.table().Section(kind)) continue;
       const auto section = container.Section(kind);
       const auto begin = static_cast<size_t>(section.data() - file.data());
@@ -149,6 +159,9 @@ TEST(DamagedSection, ForgedBitsAreAnErrorOrTheSameMesh) {
           const DecodedMesh mesh = MeshOf(forged);
           EXPECT_TRUE(mesh.positions == honest.positions && mesh.faces == honest.faces &&
                       mesh.polygon_begin == honest.polygon_begin);
+          for (size_t a = 0; a < 2; ++a) {
+            EXPECT_EQ(mesh.face_attributes[a].values, honest.face_attributes[a].values);
+          }
         } else {
           EXPECT_NE(error.find("memory: "), std::string::npos) << error;
         }

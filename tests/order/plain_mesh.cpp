@@ -93,17 +93,29 @@ class PlyReader {
   }
 
   void ReadRecord(const Element& element, PlainMesh* mesh) {
-    std::string vertex;
+    std::string scalars;
+    std::vector<std::string> lists;
     for (const Property& property : element.properties) {
       if (property.count_type.empty()) {
-        vertex += Value(property.type);
+        scalars += Value(property.type);
         continue;
       }
-      std::vector<int64_t> items(static_cast<size_t>(Integer(property.count_type)));
-      for (int64_t& item : items) item = Integer(property.type);
-      if (element.name == "face") mesh->faces.push_back(std::move(items));
+      const auto count = static_cast<size_t>(Integer(property.count_type));
+      if (property.name == "vertex_indices" || property.name == "vertex_index") {
+        std::vector<int64_t> items(count);
+        for (int64_t& item : items) item = Integer(property.type);
+        if (element.name == "face") mesh->faces.push_back(std::move(items));
+        continue;
+      }
+      std::string bytes;
+      for (size_t i = 0; i < count; ++i) bytes += Value(property.type);
+      lists.push_back(bytes);
     }
-    if (element.name == "vertex") mesh->vertices.push_back(vertex);
+    if (element.name == "vertex") mesh->vertices.push_back(scalars);
+    if (element.name == "face") {
+      mesh->face_scalars.push_back(scalars);
+      mesh->face_lists.push_back(lists);
+    }
   }
 
   std::string Value(const std::string& type) {

@@ -12,9 +12,13 @@ struct PlainMesh {
   /// All properties of the vertices, binary and lowest byte first, vertex by vertex.
   std::vector<std::string> vertices;
   std::vector<std::vector<int64_t>> faces;
+  /// PLY: of each face its scalars, then its other lists without their counts, as bytes; each with
+  /// the order of its properties.
+  std::vector<std::string> face_scalars;
+  std::vector<std::vector<std::string>> face_lists;
 };
 
-/// PLY in all three forms: scalar properties of the vertices, and the first list of the faces. OBJ,
+/// PLY in all three forms: scalar properties of the vertices, and all of the faces. OBJ,
 /// OFF and binary STL: float32 x, y, z. Throws std::runtime_error.
 PlainMesh ReadPlain(const std::string& path);
 

@@ -27,6 +27,8 @@ struct DecodedMesh {
   /// each of its faces. Those of a face are (a, b, c), (a, c, d), (a, d, e) ... Else empty.
   std::vector<uint64_t> polygon_begin = {};
   std::vector<DecodedAttribute> attributes = {};  ///< in the order of the scan
+  /// Of the whole mesh alone, in the order of the scan.
+  std::vector<DecodedFaceAttribute> face_attributes = {};
 };
 
 /// Decodes a .folp file held in memory. Not thread-safe; move-only.
@@ -45,9 +47,9 @@ class MemoryDecoder {
   size_t complete_layers() const;  ///< whole in the bytes given
   size_t decoded_layers() const;
   double error_bound() const;  ///< of the last decoded layer, model units
-  /// Decodes one more layer, and with the last one what the file tells of the scan's order and
-  /// polygons. kCorrupt when it is damaged or cut; the mesh then stays that of the
-  /// layers before only if nothing of the layer was applied, so stop using the decoder.
+  /// Decodes one more layer, and with the last one what the file tells of the scan's order,
+  /// polygons and attributes of faces. kCorrupt when it is damaged or cut; the mesh then stays that
+  /// of the layers before only if nothing of the layer was applied, so stop using the decoder.
   Result<void> DecodeNextLayer();
   /// The mesh of the layers decoded so far (at least one). Of the last layer of a soup, such as STL
   /// files are, each face has three vertices of its own.

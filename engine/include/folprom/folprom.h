@@ -44,13 +44,15 @@ struct EncodeReport {
   uint64_t scan_vertices = 0;  ///< before
   bool is_soup = false;        ///< they come back
   uint64_t bytes = 0;
-  uint64_t order_bytes = 0, polygon_bytes = 0;  ///< of these, what the order and the polygons take
+  /// Of these, what the order, the polygons and the attributes of faces take.
+  uint64_t order_bytes = 0, polygon_bytes = 0, face_attribute_bytes = 0;
   uint64_t subtrees = 0;
   uint64_t layers = 0;
   uint64_t spill_bytes = 0;               ///< temporary disk used at the peak
   uint64_t resumed_subtrees = 0;          ///< taken over from an interrupted call
   BitCounts bits;                         ///< over the whole file, without rounding to bytes
   std::vector<AttributeInfo> attributes;  ///< of the vertices, that were kept
+  std::vector<FaceAttributeInfo> face_attributes;  ///< that were kept
   std::vector<std::string> warnings;
 };
 
@@ -140,9 +142,11 @@ struct FileInfo {
   /// The scan's faces share no vertices: it has 3 `faces` of them, of which those of equal bits are
   /// one in `vertices` and in the layers.
   bool is_soup = false;
-  SectionInfo order;              ///< of vertices and faces, and the first corner of each face
-  SectionInfo polygons;           ///< faces of more than three corners
-  uint64_t scan_faces = 0;        ///< where either is kept, and the last table is there
+  SectionInfo order;        ///< of vertices and faces, and the first corner of each face
+  SectionInfo polygons;     ///< faces of more than three corners
+  SectionInfo face_values;  ///< attributes of faces and their corners
+  std::vector<FaceAttributeInfo> face_attributes;
+  uint64_t scan_faces = 0;        ///< where any of these is kept, and the last table is there
   std::vector<LayerInfo> layers;  ///< whose table is there
   bool has_bits = false;          ///< what follows is known: the last table is there
   /// Bits per vertex of the original by kind.
@@ -162,8 +166,10 @@ struct VerifyReport {
   double tolerance = 0;
   uint64_t vertices = 0;
   uint64_t faces = 0;
-  uint64_t attributes = 0;  ///< of the vertices, that were compared (against only)
-  bool order_kept = false;  ///< vertices and faces come back in the scan's order
+  uint64_t attributes = 0;          ///< of the vertices, that were compared (against only)
+  uint64_t rounded_attributes = 0;  ///< of these, that are within half a step, not bit by bit
+  uint64_t face_attributes = 0;     ///< of the faces, that were compared
+  bool order_kept = false;          ///< vertices and faces come back in the scan's order
   bool welded = false;  ///< the file is of what is left when the original is welded (against only)
   std::string reason;   ///< why not lossless; empty otherwise
 };

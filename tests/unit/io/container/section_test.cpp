@@ -49,6 +49,55 @@ TEST(Sections, OfWhichATableContradictsItselfAreAFault) {
   EXPECT_NE(TableFault(table), "");
 }
 
+FileTable TableWithFaceValues() {
+  FileTable table = TableWithSections();
+  table.sections[2] = SectionRecord{5, 6};
+  table.face_schema.attributes = {{"red", ScalarType::kUint8, 0},
+                                  {"texcoord", ScalarType::kFloat32, 2}};
+  table.face_schema.before_indices = 1;
+  table.face_ranges = {{3, 200}, {7, 7}, {0, 0xffffffff}};
+  return table;
+}
+
+TEST(Sections, OfFaceValuesComeBackFromTheTables) {
+  FileTable table = TableWithFaceValues();
+  EXPECT_EQ(Decoded(table), table);
+  table.remarks = {"comment one"};
+  EXPECT_EQ(Decoded(table), table);
+}
+
+TEST(Sections, OfFaceValuesThatCannotBeAreAFault) {
+  const auto expect_fault = [](auto change) {
+    FileTable table = TableWithFaceValues();
+    change(table);
+    EXPECT_NE(TableFault(table), "");
+    EXPECT_THROW(EncodeTables(table), Failure);
+  };
+  EXPECT_EQ(TableFault(TableWithFaceValues()), "");
+  expect_fault([](FileTable& table) { table.sections[2].reset(); });
+  expect_fault([](FileTable& table) {
+    table.face_schema = {};
+    table.face_ranges.clear();
+  });
+  expect_fault([](FileTable& table) { table.face_ranges.pop_back(); });
+  expect_fault([](FileTable& table) { table.face_ranges[0] = {5, 256}; });
+  expect_fault([](FileTable& table) { table.face_ranges[0] = {5, 4}; });
+  expect_fault([](FileTable& table) { table.face_schema.before_indices = 3; });
+  expect_fault([](FileTable& table) { table.face_schema.attributes[0].name = "texcoord"; });
+  expect_fault([](FileTable& table) { table.face_schema.attributes[0].name = "vertex_index"; });
+  expect_fault([](FileTable& table) { table.face_schema.attributes[0].name = "a b"; });
+  expect_fault([](FileTable& table) {
+    table.face_schema.attributes[1].per_corner = kMostPerCorner + 1;
+    table.face_ranges.resize(kMostPerCorner + 2);
+  });
+  expect_fault([](FileTable& table) {
+    for (int i = 0; i < 33; ++i) {
+      table.face_schema.attributes.push_back({std::to_string(i), ScalarType::kFloat64, 0});
+      table.face_ranges.emplace_back();
+    }
+  });
+}
+
 TEST(Sections, AreReadBlockByBlock) {
   std::vector<uint8_t> section = FramedBlock(std::vector<uint8_t>{1, 2, 3});
   const std::vector<uint8_t> second = FramedBlock({});

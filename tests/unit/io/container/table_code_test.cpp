@@ -398,7 +398,7 @@ TEST(TableCode, RejectsALatticeThatIsNone) {
   ExpectCorrupt(with_double(tolerance, -1), "tolerance");
   ExpectCorrupt(with_double(tolerance, nan), "tolerance");
   auto as_floats = bytes;
-  as_floats[5] = 16;
+  as_floats[5] = 32;
   ExpectCorrupt(as_floats, "flags of the mesh");
   auto infinite = EncodeTable(ExampleTable());
   infinite[8] = 0x80;

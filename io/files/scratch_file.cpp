@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <utility>
 
 namespace folprom::io {
@@ -13,6 +14,11 @@ namespace {
 constexpr uint64_t kPiece = uint64_t{1} << 28;
 
 }  // namespace
+
+std::string TemporaryFolder() {
+  const char* folder = std::getenv("TMPDIR");
+  return folder != nullptr && *folder != '\0' ? folder : "/tmp";
+}
 
 ScratchFile::ScratchFile(const std::string& folder, std::string path) : path_(std::move(path)) {
   std::string name;

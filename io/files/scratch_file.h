@@ -10,8 +10,11 @@
 
 namespace folprom::io {
 
+/// $TMPDIR or /tmp.
+std::string TemporaryFolder();
+
 /// Is gone with its object, however the program ends. All errors are Failure kOutput with `path`,
-/// the output for which it is made.
+/// the output, or the input, for which it is made.
 class ScratchFile {
  public:
   ScratchFile(const std::string& folder, std::string path);

@@ -26,22 +26,22 @@ class CountedWriter : public MeshWriter {
   Result<void> AppendPolygons(std::span<const Triangle> triangles, std::span<const uint8_t> joins,
                               std::span<const uint8_t> rows) final;
   Result<void> Commit() final;
-  /// Names the attributes, and counts the remarks, of a format that holds none.
+  /// Names the attributes, and counts the remarks, that the format does not hold.
   std::vector<std::string> Warnings() const override;
 
  protected:
   CountedWriter(const std::string& path, const MeshShape& shape, bool force);
 
-  /// attributes: nothing but where HoldsAttributes.
   virtual void WriteVertices(std::span<const double> xyz, std::span<const uint8_t> attributes) = 0;
   virtual void WriteFaces(std::span<const Triangle> faces) = 0;
-  /// values: nothing but where HoldsFaceAttributes.
+  /// values: as the face schema has them.
   virtual void WritePolygon(std::span<const uint64_t> corners, const FaceValues& values) = 0;
   /// False: polygons are written as triangles.
   virtual bool HoldsPolygons() const { return true; }
-  /// Attributes of vertices, and remarks.
-  virtual bool HoldsAttributes() const { return false; }
-  virtual bool HoldsFaceAttributes() const { return false; }
+  virtual bool Holds(const VertexAttribute&) const { return false; }
+  virtual bool Holds(const FaceAttribute&) const { return false; }
+  /// How many remarks the file does not have.
+  virtual size_t RemarksLost() const { return shape_.remarks.size(); }
   /// Completes the file but for the commit.
   virtual void Finish() = 0;
 

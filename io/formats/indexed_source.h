@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "io/files/mapped_file.h"
 #include "io/formats/mesh_source.h"
@@ -18,6 +20,9 @@ struct SourceIndex {
   size_t triangle_blocks = 0;
   ScalarType coordinate_type = ScalarType::kFloat32;
   SourceNotes notes;
+  VertexSchema schema;
+  FaceSchema face_schema;
+  std::vector<std::string> remarks;
 };
 
 /// Answers from the index all but the two reads.
@@ -34,6 +39,9 @@ class IndexedSource : public MeshSource {
     return std::min<uint64_t>(block * index_.block_vertices, index_.vertices);
   }
   size_t triangle_block_count() const override { return index_.triangle_blocks; }
+  const VertexSchema& vertex_schema() const override { return index_.schema; }
+  const FaceSchema& face_schema() const override { return index_.face_schema; }
+  const std::vector<std::string>& remarks() const override { return index_.remarks; }
   const SourceNotes& notes() const override { return index_.notes; }
   Result<void> CheckUnchanged() const override {
     return ResultOf([&] { file_.CheckUnchanged(); });

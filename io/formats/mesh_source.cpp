@@ -30,10 +30,10 @@ std::unique_ptr<MeshSource> OpenStl(MappedFile file) {
   return is_text ? OpenTextStlSource(std::move(file)) : OpenBinaryStlSource(std::move(file));
 }
 
-std::unique_ptr<MeshSource> OpenByEnding(MappedFile file) {
+std::unique_ptr<MeshSource> OpenByEnding(MappedFile file, const Limits& limits) {
   switch (FormatByEnding(file.path()).value_or(MeshFormat::kPly)) {
     case MeshFormat::kObj:
-      return OpenObjSource(std::move(file));
+      return OpenObjSource(std::move(file), limits);
     case MeshFormat::kStl:
       return OpenStl(std::move(file));
     case MeshFormat::kOff:
@@ -55,8 +55,9 @@ std::unique_ptr<MeshSource> OpenByContent(MappedFile file, const Limits& limits)
   if (IsOffKeyword(word)) return OpenOffSource(std::move(file));
   if (EqualsIgnoringCase(word, "solid")) return OpenStl(std::move(file));
   // The keywords of OBJ are words of any text: a damaged file of another format may begin so.
-  if (IsObjKeyword(word) && !FormatByEnding(file.path())) return OpenObjSource(std::move(file));
-  return OpenByEnding(std::move(file));
+  if (IsObjKeyword(word) && !FormatByEnding(file.path()))
+    return OpenObjSource(std::move(file), limits);
+  return OpenByEnding(std::move(file), limits);
 }
 
 }  // namespace

@@ -7,18 +7,6 @@
 
 namespace folprom::io {
 
-namespace {
-
-template <class Attribute>
-std::string NamesOf(const std::vector<Attribute>& attributes) {
-  std::string names;
-  for (const Attribute& attribute : attributes)
-    names += (names.empty() ? "" : ", ") + attribute.name;
-  return names;
-}
-
-}  // namespace
-
 Result<MeshFormat> OutputFormat(const std::string& path) {
   if (const std::optional<MeshFormat> format = FormatByEnding(path)) return *format;
   return Error{ErrorKind::kUsage,
@@ -61,7 +49,7 @@ Result<void> CountedWriter::AppendVertices(std::span<const double> xyz,
       ThrowInternal("the attributes written are not those that were announced");
     }
     vertices_left_ -= xyz.size() / 3;
-    WriteVertices(xyz, HoldsAttributes() ? attributes : std::span<const uint8_t>());
+    WriteVertices(xyz, attributes);
   });
 }
 
@@ -72,7 +60,7 @@ Result<void> CountedWriter::AppendFaces(std::span<const Triangle> faces,
     faces_left_ -= faces.size();
     CheckIndices(faces);
     CheckRows(faces, rows);
-    if (rows.empty() || !HoldsFaceAttributes()) {
+    if (rows.empty() || !HoldsPolygons()) {
       WriteFaces(faces);
       return;
     }
@@ -97,7 +85,6 @@ Result<void> CountedWriter::AppendPolygons(std::span<const Triangle> triangles,
       WriteFaces(triangles);
       return;
     }
-    if (!HoldsFaceAttributes()) rows = {};
     const size_t face_bytes = shape_.face_schema.FaceBytes();
     const size_t corner_bytes = shape_.face_schema.CornerBytes();
     for (size_t i = 0; i < triangles.size(); ++i) {
@@ -152,18 +139,20 @@ Result<void> CountedWriter::Commit() {
 
 std::vector<std::string> CountedWriter::Warnings() const {
   std::vector<std::string> warnings;
-  if (!shape_.face_schema.empty() && !HoldsFaceAttributes()) {
-    warnings.push_back("attributes of faces are written to PLY only, lost are: " +
-                       NamesOf(shape_.face_schema.attributes));
-  }
-  if (HoldsAttributes()) return warnings;
-  if (!shape_.schema.attributes.empty()) {
-    warnings.push_back("attributes of vertices are written to PLY only, lost are: " +
-                       NamesOf(shape_.schema.attributes));
-  }
-  if (!shape_.remarks.empty()) {
+  const auto warn = [&](const char* of, const auto& attributes) {
+    std::string names;
+    for (const auto& attribute : attributes) {
+      if (!Holds(attribute)) names += (names.empty() ? "" : ", ") + attribute.name;
+    }
+    if (names.empty()) return;
+    warnings.push_back(std::string("the format does not hold all attributes of ") + of +
+                       ", lost are: " + names);
+  };
+  warn("vertices", shape_.schema.attributes);
+  warn("faces", shape_.face_schema.attributes);
+  if (RemarksLost() > 0) {
     warnings.push_back("comments are written to PLY only, lost are " +
-                       std::to_string(shape_.remarks.size()));
+                       std::to_string(RemarksLost()));
   }
   return warnings;
 }

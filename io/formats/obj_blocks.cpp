@@ -66,10 +66,45 @@ const Uncoded* FindUncoded(std::string_view keyword) {
   return found == std::end(kUncoded) ? nullptr : found;
 }
 
+/// The numbers of one "vt" or "vn" after another.
+class ListWriter {
+ public:
+  ListWriter() = default;
+
+  void Add(const std::array<double, 3>& values, size_t columns, const MappedFile& scan) {
+    if (values_.file == nullptr) {
+      values_.file = std::make_unique<ScratchFile>(TemporaryFolder(), scan.path());
+    }
+    ++values_.count;
+    values_.columns = std::max(values_.columns, columns);
+    const auto* bytes = reinterpret_cast<const uint8_t*>(values.data());
+    buffer_.insert(buffer_.end(), bytes, bytes + sizeof values);
+    if (buffer_.size() >= kBuffer) Flush();
+  }
+  ObjValues Take() {
+    Flush();
+    return std::move(values_);
+  }
+  uint64_t count() const { return values_.count; }
+
+ private:
+  static constexpr size_t kBuffer = size_t{1} << 18;
+  void Flush() {
+    if (!buffer_.empty()) values_.file->Append(buffer_);
+    buffer_.clear();
+  }
+
+  ObjValues values_;
+  std::vector<uint8_t> buffer_;
+};
+
 class ObjIndexer {
  public:
-  explicit ObjIndexer(const MappedFile& file)
-      : cursor_(file, {0, 1}, TextCursor::Lines::kJoined), window_(file) {}
+  ObjIndexer(const MappedFile& file, const Limits& limits)
+      : file_(file),
+        cursor_(file, {0, 1}, TextCursor::Lines::kJoined),
+        window_(file),
+        names_(std::min<uint64_t>(limits.comment_bytes, kMostRemarkBytes)) {}
 
   ObjBlocks Index() {
     while (cursor_.NextWordLine()) {
@@ -86,7 +121,10 @@ class ObjIndexer {
     }
     blocks_.index.triangle_blocks = blocks_.faces.size();
     blocks_.index.coordinate_type = census_.type();
+    NameVertexAttributes();
+    NameFaceAttributes();
     NoteWhatIsNotCoded();
+    blocks_.names = std::move(names_);
     return std::move(blocks_);
   }
 
@@ -95,26 +133,40 @@ class ObjIndexer {
     if (blocks_.index.vertices++ % kBlockVertices == 0) blocks_.vertices.push_back(line);
     census_.AddPosition(cursor_);
     uint64_t more = 0;
-    for (std::string_view word; !(word = cursor_.Word()).empty(); ++more) {
-      double value = 0;
-      if (!ParseReal(word, &value)) cursor_.FailWord(word, "not a number");
-    }
+    for (std::string_view word; !(word = cursor_.Word()).empty(); ++more)
+      others_.Add(word, cursor_);
     // x y z [w] [r g b [a]]
     if (more == 2 || more > 5) {
       cursor_.Fail("a vertex has " + std::to_string(3 + more) + " values");
     }
-    has_weights_ |= more == 1;
+    has_weights_ |= more == 1 || more == 5;
     has_colours_ |= more >= 3;
+    if (blocks_.index.vertices == 1) more_ = more;
+    is_even_ &= more == more_;
   }
 
   void WalkFace(FilePosition line) {
     uint64_t corners = 0;
-    while (!cursor_.Word().empty()) ++corners;
+    std::array<uint64_t, kObjLists> named{};
+    for (std::string_view word; !(word = cursor_.Word()).empty(); ++corners) {
+      const size_t stroke = word.find('/');
+      if (stroke == std::string_view::npos) continue;
+      const size_t second = std::min(word.find('/', stroke + 1), word.size());
+      named[kTextures] += second > stroke + 1;
+      named[kNormals] += second + 1 < word.size();
+    }
     const uint64_t triangles = FanTriangles(corners, blocks_.index.notes);
     if (triangles == 0) return;
     if (blocks_.faces.empty() || blocks_.faces.back().triangles + triangles > kBlockTriangles) {
-      blocks_.faces.push_back({line, blocks_.index.vertices, 0});
+      blocks_.faces.push_back({line,
+                               blocks_.index.vertices,
+                               {lists_[kTextures].count(), lists_[kNormals].count()},
+                               state_,
+                               0});
     }
+    // Blocks of faces are not cut inside of one, but a row of a huge one has too much of it.
+    has_huge_faces_ |= triangles > kBlockTriangles;
+    for (size_t i = 0; i < kObjLists; ++i) named_[i] |= named[i] > 0;
     blocks_.faces.back().triangles += triangles;
     blocks_.index.triangles += triangles;
   }
@@ -123,34 +175,98 @@ class ObjIndexer {
     const Uncoded* uncoded = FindUncoded(keyword);
     if (uncoded == nullptr) cursor_.FailWord(keyword, "no keyword of an OBJ file");
     seen_.set(static_cast<size_t>(uncoded - kUncoded));
+    const size_t statement = ObjNames::StatementOf(keyword);
     if (keyword == "vn" || keyword == "vt") {
       WalkAttribute(keyword);
+    } else if (statement < kObjStatements.size()) {
+      state_[statement] = names_.Add(statement, TakeObjName(keyword, cursor_));
+    } else if (keyword == kMaterialFiles) {
+      names_.AddMaterialFile(cursor_.RestOfLine());
     } else {
       SkipObjLine(keyword, cursor_);
     }
   }
 
-  // Values that are skipped are not parsed; their number tells two lines that became one.
+  // The number of values tells two lines that became one.
   void WalkAttribute(std::string_view keyword) {
-    uint64_t values = 0;
-    while (!cursor_.Word().empty()) ++values;
-    if (values < (keyword == "vn" ? 3 : 1) || values > 3) {
-      cursor_.Fail(std::string(keyword) + " has " + std::to_string(values) + " values");
+    const size_t list = keyword == "vn" ? kNormals : kTextures;
+    std::array<double, 3> values{};
+    size_t count = 0;
+    for (std::string_view word; !(word = cursor_.Word()).empty(); ++count) {
+      const double value = list_numbers_[list].Add(word, cursor_);
+      if (count < values.size()) values[count] = value;
     }
+    if (count < (keyword == "vn" ? 3 : 1) || count > 3) {
+      cursor_.Fail(std::string(keyword) + " has " + std::to_string(count) + " values");
+    }
+    lists_[list].Add(values, count, file_);
+  }
+
+  void NameVertexAttributes() {
+    if (!is_even_ || more_ == 0) return;
+    const ScalarType type = others_.type();
+    std::vector<VertexAttribute>& attributes = blocks_.index.schema.attributes;
+    if (has_weights_) attributes.push_back({"w", type});
+    if (has_colours_) {
+      for (const char* name : {"red", "green", "blue"}) attributes.push_back({name, type});
+    }
+    if (more_ >= 4) attributes.push_back({"alpha", type});
+  }
+
+  void NameFaceAttributes() {
+    if (has_huge_faces_ || blocks_.index.triangles == 0) return;
+    FaceSchema& schema = blocks_.index.face_schema;
+    for (size_t s = 0; s < kObjStatements.size() && names_.is_whole(); ++s) {
+      if (!names_.Has(s)) continue;
+      schema.attributes.push_back({std::string(kObjStatements[s].attribute), ScalarType::kUint32});
+    }
+    if (names_.is_whole()) blocks_.index.remarks = names_.remarks();
+    for (size_t i = 0; i < kObjLists; ++i) {
+      if (!named_[i] || lists_[i].count() == 0) continue;
+      blocks_.values[i] = lists_[i].Take();
+      schema.attributes.push_back({std::string(kObjListNames[i]), list_numbers_[i].type(),
+                                   static_cast<uint32_t>(blocks_.values[i].columns)});
+    }
+  }
+
+  /// Is what this statement says an attribute, or a remark.
+  bool IsKept(std::string_view keyword) const {
+    const FaceSchema& schema = blocks_.index.face_schema;
+    const auto has = [&](std::string_view name) {
+      return std::ranges::find(schema.attributes, name, &FaceAttribute::name) !=
+             schema.attributes.end();
+    };
+    const size_t statement = ObjNames::StatementOf(keyword);
+    if (statement < kObjStatements.size()) return has(kObjStatements[statement].attribute);
+    for (size_t i = 0; i < kObjLists; ++i) {
+      if (keyword == kObjListKeywords[i]) return has(kObjListNames[i]);
+    }
+    return keyword == kMaterialFiles && !blocks_.index.remarks.empty();
   }
 
   void NoteWhatIsNotCoded() {
     std::vector<std::string>& names = blocks_.index.notes.ignored_properties;
-    if (has_weights_) names.push_back("weights of vertices (v)");
-    if (has_colours_) names.push_back("colours of vertices (v)");
+    const bool keeps_more = !blocks_.index.schema.attributes.empty();
+    if (has_weights_ && !keeps_more) names.push_back("weights of vertices (v)");
+    if (has_colours_ && !keeps_more) names.push_back("colours of vertices (v)");
     for (size_t i = 0; i < std::size(kUncoded); ++i) {
-      if (seen_[i]) names.push_back(kUncoded[i].meaning);
+      if (seen_[i] && !IsKept(kUncoded[i].keyword)) names.push_back(kUncoded[i].meaning);
     }
   }
 
+  const MappedFile& file_;
   TextCursor cursor_;
   ResidentWindow window_;
   CoordinateCensus census_;
+  CoordinateCensus others_;  ///< of what vertices have beside positions
+  uint64_t more_ = 0;        ///< numbers of that
+  bool is_even_ = true;      ///< each vertex has as many
+  ObjNames names_;
+  ObjState state_{};
+  std::array<ListWriter, kObjLists> lists_;
+  std::array<CoordinateCensus, kObjLists> list_numbers_;
+  std::array<bool, kObjLists> named_{};  ///< by a corner of a face
+  bool has_huge_faces_ = false;
   std::bitset<std::size(kUncoded)> seen_;
   bool has_weights_ = false;
   bool has_colours_ = false;
@@ -172,6 +288,16 @@ void SkipObjLine(std::string_view keyword, TextCursor& cursor) {
   }
 }
 
-ObjBlocks IndexObjBlocks(const MappedFile& file) { return ObjIndexer(file).Index(); }
+std::string_view TakeObjName(std::string_view keyword, TextCursor& cursor) {
+  const Uncoded* uncoded = FindUncoded(keyword);
+  if (uncoded != nullptr && uncoded->is_name) return cursor.RestOfLine();
+  const std::string_view name = cursor.Word();
+  cursor.SkipLine();
+  return name;
+}
+
+ObjBlocks IndexObjBlocks(const MappedFile& file, const Limits& limits) {
+  return ObjIndexer(file, limits).Index();
+}
 
 }  // namespace folprom::io

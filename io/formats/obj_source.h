@@ -1,4 +1,4 @@
-// OBJ files as a MeshSource: positions and faces; the rest is named in the notes.
+// OBJ files as a MeshSource: what is not read of them is named in the notes.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,6 @@
 namespace folprom::io {
 
 /// Throws Failure kInput, with the line.
-std::unique_ptr<MeshSource> OpenObjSource(MappedFile file);
+std::unique_ptr<MeshSource> OpenObjSource(MappedFile file, const Limits& limits);
 
 }  // namespace folprom::io

@@ -6,10 +6,12 @@
 
 #include "folprom/float_bits.h"
 #include "io/formats/indexed_source.h"
+#include "io/formats/off_colours.h"
 #include "io/formats/off_source.h"
 #include "io/formats/ply_scalar.h"
 #include "io/formats/polygon_fan.h"
 #include "io/formats/resident_window.h"
+#include "io/formats/store_bytes.h"
 #include "io/result_of.h"
 
 namespace folprom::io {
@@ -66,7 +68,8 @@ class OffBinaryWalk {
     if (Left() > 0) return std::nullopt;
     index_.source.vertices = vertices;
     index_.source.triangle_blocks = index_.faces.size();
-    if (has_face_colours_) index_.source.notes.ignored_properties.push_back("colours of faces");
+    face_colours_.SetFloats();
+    index_.source.face_schema = OffFaceSchema(face_colours_);
     return std::move(index_);
   }
 
@@ -84,13 +87,14 @@ class OffBinaryWalk {
     // No face has no corner; a number of no colours, taken for one, would have.
     if (corners == 0 || corners > Left() / kWord) return false;
     at_ += corners * kWord;
+    uint64_t values = 0;
     if (index_.form.face_colours) {
       if (Left() < kWord) return false;
-      const uint64_t values = Next();
+      values = Next();
       if (values > 4 || values > Left() / kWord) return false;
       at_ += values * kWord;
-      has_face_colours_ |= values > 0;
     }
+    if (corners >= 3) face_colours_.AddCount(values);
     AddTriangles(FanTriangles(corners, index_.source.notes), begin);
     return true;
   }
@@ -107,7 +111,7 @@ class OffBinaryWalk {
   std::span<const uint8_t> bytes_;
   uint64_t at_;
   ResidentWindow window_;
-  bool has_face_colours_ = false;
+  ColourCensus face_colours_;
   OffBinaryIndex index_;
 };
 
@@ -137,11 +141,10 @@ class BinaryOffSource final : public IndexedSource {
     form_ = index.form;
     vertex_bytes_ = index.vertex_bytes;
     faces_ = std::move(index.faces);
-    if (index_.vertices == 0) return;
-    std::vector<std::string>& names = index_.notes.ignored_properties;
-    if (header.has_normals) names.push_back("normals of vertices");
-    if (header.has_colours) names.push_back("colours of vertices");
-    if (header.has_texture) names.push_back("texture coordinates of vertices");
+    ColourCensus colours;
+    colours.SetFloats();
+    colours.AddCount(form_.vertex_colours);
+    index_.schema = OffVertexSchema(header, colours, ScalarType::kFloat32);
   }
 
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override {
@@ -157,6 +160,38 @@ class BinaryOffSource final : public IndexedSource {
     return {};
   }
 
+  /// All are floats, as many words as a vertex has behind its position.
+  Result<void> ReadVertexAttributes(size_t block, std::vector<uint8_t>* values) const override {
+    const size_t stride = index_.schema.Stride();
+    values->resize(VerticesIn(block) * stride);
+    if (values->empty()) return {};
+    const uint8_t* vertex =
+        file().bytes().data() + begin_ + vertex_block_begin(block) * vertex_bytes_;
+    for (uint8_t* to = values->data(); to != values->data() + values->size();
+         vertex += vertex_bytes_) {
+      for (size_t at = 3 * kWord; at < vertex_bytes_; at += kWord) {
+        to = StoreLittleEndian(Word(vertex + at, form_.big_endian), to);
+      }
+    }
+    return {};
+  }
+
+  Result<void> ReadFaceAttributes(size_t block, std::vector<uint8_t>* rows) const override {
+    rows->clear();
+    if (index_.face_schema.empty()) return {};
+    return ResultOf([&] {
+      const uint8_t* at = file().bytes().data() + faces_[block].offset;
+      const size_t bytes = faces_[block].triangles * index_.face_schema.RowBytes();
+      std::vector<Triangle> triangles;
+      std::vector<double> colours;
+      while (rows->size() < bytes) {
+        triangles.clear();
+        at = ReadFace(at, triangles, nullptr, &colours);
+        AddOffRows(index_.face_schema, colours, triangles.size(), rows);
+      }
+    });
+  }
+
  private:
   Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,
                          std::vector<uint8_t>* joins) const override {
@@ -164,12 +199,13 @@ class BinaryOffSource final : public IndexedSource {
       const uint8_t* at = file().bytes().data() + faces_[block].offset;
       triangles->clear();
       triangles->reserve(faces_[block].triangles);
-      while (triangles->size() < faces_[block].triangles) at = ReadFace(at, *triangles, joins);
+      while (triangles->size() < faces_[block].triangles)
+        at = ReadFace(at, *triangles, joins, nullptr);
     });
   }
 
   const uint8_t* ReadFace(const uint8_t* face, std::vector<Triangle>& out,
-                          std::vector<uint8_t>* joins) const {
+                          std::vector<uint8_t>* joins, std::vector<double>* colours) const {
     const uint8_t* at = face;
     const uint8_t* const end = file().bytes().data() + file().bytes().size();
     // The walk saw that all is there, unless the file has changed since.
@@ -193,7 +229,11 @@ class BinaryOffSource final : public IndexedSource {
       check(1);
       const uint64_t values = next();
       check(values);
-      at += values * kWord;
+      if (colours != nullptr) colours->clear();
+      for (uint64_t i = 0; i < values; ++i) {
+        const double value = WidenFloat(std::bit_cast<float>(next()));
+        if (colours != nullptr) colours->push_back(value);
+      }
     }
     return at;
   }

@@ -1,6 +1,7 @@
 // The header of an OFF file: "[ST][C][N]OFF [BINARY]" and the counts.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -9,6 +10,15 @@
 #include "io/formats/file_position.h"
 
 namespace folprom::io {
+
+// Attributes that OFF has, in the order of its lines.
+inline constexpr std::array<std::string_view, 3> kOffNormals{"nx", "ny", "nz"};
+inline constexpr std::array<std::string_view, 4> kOffColours{"red", "green", "blue", "alpha"};
+inline constexpr std::array<std::string_view, 2> kOffTexture{"s", "t"};
+/// Of faces: the number of a colour in a map; where faces have colours of several forms, how many
+/// of the numbers each has.
+inline constexpr std::string_view kOffColourIndex = "colour_index",
+                                  kOffColourCount = "colour_values";
 
 struct OffHeader {
   bool has_texture = false;  ///< ST: two texture coordinates a vertex

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/formats/indexed_source.h"
+#include "io/formats/off_colours.h"
 #include "io/formats/off_source.h"
 #include "io/formats/polygon_fan.h"
 #include "io/formats/resident_window.h"
@@ -19,10 +20,24 @@ struct OffFaceBlock {
   uint64_t triangles = 0;
 };
 
-uint64_t WordsLeft(TextCursor& cursor) {
-  uint64_t words = 0;
-  while (!cursor.Word().empty()) ++words;
+/// Of a line. A colour, with what a vertex may have beside it, has no more.
+constexpr size_t kMostWords = 16;
+
+/// The words behind the first `skipped` ones, of which at most kMostWords are kept; *count: of all.
+std::vector<std::string_view> WordsBehind(uint64_t skipped, TextCursor& cursor, uint64_t* count) {
+  std::vector<std::string_view> words;
+  *count = 0;
+  for (std::string_view word; !(word = cursor.Word()).empty(); ++*count) {
+    if (*count >= skipped && words.size() < kMostWords) words.push_back(word);
+  }
   return words;
+}
+
+/// Of the words that were found to be numbers.
+std::vector<double> Reals(std::span<const std::string_view> words) {
+  std::vector<double> reals;
+  for (const std::string_view word : words) ParseReal(word, &reals.emplace_back());
+  return reals;
 }
 
 /// A line a vertex, then a line a face, and nothing more.
@@ -39,18 +54,17 @@ class OffIndexer {
     index_.vertices = header_.vertices;
     index_.triangle_blocks = faces_.size();
     index_.coordinate_type = census_.type();
-    std::vector<std::string>& names = index_.notes.ignored_properties;
-    if (header_.vertices > 0 && header_.has_normals) names.push_back("normals of vertices");
-    if (has_vertex_colours_) names.push_back("colours of vertices");
-    if (header_.vertices > 0 && header_.has_texture) {
-      names.push_back("texture coordinates of vertices");
+    index_.schema = OffVertexSchema(header_, vertex_colours_, others_.type());
+    index_.face_schema = OffFaceSchema(face_colours_);
+    if (!vertex_colours_.is_even()) {
+      index_.notes.ignored_properties.push_back("colours of vertices");
     }
-    if (has_face_colours_) names.push_back("colours of faces");
   }
 
   SourceIndex index_;
   std::vector<FilePosition> vertices_;
   std::vector<OffFaceBlock> faces_;
+  ColourCensus vertex_colours_;
 
  private:
   // Before any step: a count may announce more than any file can hold.
@@ -80,21 +94,28 @@ class OffIndexer {
     NextLine("vertex", vertex, header_.vertices);
     if (vertex % kBlockVertices == 0) vertices_.push_back(cursor_.position());
     census_.AddPosition(cursor_);
-    const uint64_t words = WordsLeft(cursor_);
+    uint64_t words = 0;
+    const std::vector<std::string_view> values = WordsBehind(0, cursor_, &words);
     const uint64_t others = (header_.has_normals ? 3 : 0) + (header_.has_texture ? 2 : 0);
     // Many programs write colours without the C of the keyword.
     const bool has_colour = words == others + 3 || words == others + 4;
     if (!has_colour && (header_.has_colours || words != others)) {
       cursor_.Fail("a vertex has " + std::to_string(3 + words) + " values");
     }
-    has_vertex_colours_ |= has_colour;
+    const size_t normals = header_.has_normals ? 3 : 0, colours = has_colour ? words - others : 0;
+    vertex_colours_.Add(std::span(values).subspan(normals, colours), cursor_);
+    for (size_t i = 0; i < values.size(); ++i) {
+      if (i < normals || i >= normals + colours) others_.Add(values[i], cursor_);
+    }
   }
 
   void WalkFace(uint64_t face) {
     NextLine("face", face, header_.faces);
     const FilePosition line = cursor_.position();
     const int64_t corners = cursor_.Integer("the number of corners");
-    const uint64_t words = WordsLeft(cursor_);
+    uint64_t words = 0;
+    const std::vector<std::string_view> values =
+        WordsBehind(static_cast<uint64_t>(std::max<int64_t>(corners, 0)), cursor_, &words);
     if (corners < 0 || static_cast<uint64_t>(corners) > words) {
       cursor_.Fail("a face of " + std::to_string(corners) + " corners has " +
                    std::to_string(words) + " values behind their number");
@@ -105,9 +126,9 @@ class OffIndexer {
       cursor_.Fail("a face of " + std::to_string(corners) + " corners has " + std::to_string(more) +
                    " values behind them, which is no colour");
     }
-    has_face_colours_ |= more > 0;
     const uint64_t triangles = FanTriangles(static_cast<uint64_t>(corners), index_.notes);
     if (triangles == 0) return;
+    face_colours_.Add(values, cursor_);
     if (faces_.empty() || faces_.back().triangles + triangles > kBlockTriangles) {
       faces_.push_back({line, 0});
     }
@@ -120,18 +141,21 @@ class OffIndexer {
   TextCursor cursor_;
   ResidentWindow window_;
   CoordinateCensus census_;
-  bool has_vertex_colours_ = false;
-  bool has_face_colours_ = false;
+  CoordinateCensus others_;  ///< of normals and texture coordinates
+  ColourCensus face_colours_;
 };
 
 class TextOffSource final : public IndexedSource {
  public:
-  TextOffSource(MappedFile mapped, const OffHeader& header) : IndexedSource(std::move(mapped)) {
+  TextOffSource(MappedFile mapped, const OffHeader& header)
+      : IndexedSource(std::move(mapped)), has_normals_(header.has_normals) {
     OffIndexer indexer(file(), header);
     indexer.Index();
     index_ = std::move(indexer.index_);
     vertices_ = std::move(indexer.vertices_);
     faces_ = std::move(indexer.faces_);
+    keeps_colours_ = indexer.vertex_colours_.is_even();
+    texture_ = header.has_texture ? kOffTexture.size() : 0;
   }
 
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override {
@@ -148,7 +172,61 @@ class TextOffSource final : public IndexedSource {
     });
   }
 
+  Result<void> ReadVertexAttributes(size_t block, std::vector<uint8_t>* values) const override {
+    values->clear();
+    if (index_.schema.attributes.empty()) return {};
+    return ResultOf([&] {
+      TextCursor cursor(file(), vertices_[block]);
+      values->resize(VerticesIn(block) * index_.schema.Stride());
+      uint8_t* to = values->data();
+      for (uint64_t i = VerticesIn(block); i > 0; --i) {
+        cursor.NextWordLine();
+        to = ReadVertex(cursor, to);
+      }
+    });
+  }
+
+  Result<void> ReadFaceAttributes(size_t block, std::vector<uint8_t>* rows) const override {
+    rows->clear();
+    if (index_.face_schema.empty()) return {};
+    return ResultOf([&] {
+      TextCursor cursor(file(), faces_[block].position);
+      const size_t bytes = faces_[block].triangles * index_.face_schema.RowBytes();
+      while (rows->size() < bytes) {
+        if (!cursor.NextWordLine()) cursor.Fail("the file has changed while it was read");
+        const int64_t corners = cursor.Integer("the number of corners");
+        if (corners >= 3) {
+          uint64_t words = 0;
+          const auto values = WordsBehind(static_cast<uint64_t>(corners), cursor, &words);
+          AddOffRows(index_.face_schema, Reals(values), static_cast<uint64_t>(corners) - 2, rows);
+        }
+        cursor.SkipSingleLine();
+      }
+    });
+  }
+
  private:
+  /// The attributes of a line, stored; where they go on.
+  uint8_t* ReadVertex(TextCursor& cursor, uint8_t* to) const {
+    uint64_t words = 0;
+    const std::vector<double> values = Reals(WordsBehind(3, cursor, &words));
+    const size_t normals = has_normals_ ? kOffNormals.size() : 0;
+    if (values.size() < normals + texture_) cursor.Fail("the file has changed while it was read");
+    const auto all = std::span<const double>(values);
+    const size_t colours =
+        keeps_colours_ ? index_.schema.attributes.size() - normals - texture_ : 0;
+    const auto type = [&](size_t column) { return index_.schema.attributes[column].type; };
+    if (normals > 0) to = StoreOffValues(all.first(normals), type(0), normals, to);
+    if (colours > 0) {
+      const auto some = all.subspan(normals, values.size() - normals - texture_);
+      to = StoreOffValues(some, type(normals), colours, to);
+    }
+    if (texture_ > 0) {
+      to = StoreOffValues(all.last(texture_), type(normals + colours), texture_, to);
+    }
+    return to;
+  }
+
   Result<void> ReadFaces(size_t block, std::vector<Triangle>* triangles,
                          std::vector<uint8_t>* joins) const override {
     return ResultOf([&] {
@@ -180,6 +258,8 @@ class TextOffSource final : public IndexedSource {
 
   std::vector<FilePosition> vertices_;
   std::vector<OffFaceBlock> faces_;
+  bool has_normals_, keeps_colours_ = true;
+  size_t texture_ = 0;  ///< numbers
 };
 
 }  // namespace

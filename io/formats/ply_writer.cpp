@@ -95,8 +95,9 @@ class PlyWriter final : public CountedWriter {
   }
 
  private:
-  bool HoldsAttributes() const override { return true; }
-  bool HoldsFaceAttributes() const override { return true; }
+  bool Holds(const VertexAttribute&) const override { return true; }
+  bool Holds(const FaceAttribute&) const override { return true; }
+  size_t RemarksLost() const override { return 0; }
 
   void WriteVertices(std::span<const double> xyz, std::span<const uint8_t> attributes) override {
     for (size_t i = 0; i < xyz.size(); i += 3, attributes = attributes.subspan(stride_)) {

@@ -51,6 +51,15 @@ void TextCursor::SkipSingleLine() {
   while (at_ < end_ && !IsNewline(*at_)) ++at_;
 }
 
+std::string_view TextCursor::RestOfLine() {
+  while (at_ < end_ && IsBlank(*at_)) ++at_;
+  const char* begin = at_;
+  SkipSingleLine();
+  const char* end = at_;
+  while (end > begin && IsBlank(end[-1])) --end;
+  return {begin, static_cast<size_t>(end - begin)};
+}
+
 double TextCursor::Coordinate(ScalarType type) {
   const std::string_view word = Word();
   if (word.empty()) Fail("the line has fewer than three coordinates");
@@ -101,10 +110,15 @@ void CoordinateCensus::AddPosition(TextCursor& cursor) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view word = cursor.Word();
     if (word.empty()) cursor.Fail("the line has fewer than three coordinates");
-    double value = 0;
-    if (!ParseReal(word, &value)) cursor.FailWord(word, "not a number");
-    if (!needs_double_) needs_double_ = !IsFloat32Decimal(word, value);
+    Add(word, cursor);
   }
+}
+
+double CoordinateCensus::Add(std::string_view word, const TextCursor& cursor) {
+  double value = 0;
+  if (!ParseReal(word, &value)) cursor.FailWord(word, "not a number");
+  if (!needs_double_) needs_double_ = !IsFloat32Decimal(word, value);
+  return value;
 }
 
 }  // namespace folprom::io

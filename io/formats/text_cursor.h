@@ -39,6 +39,9 @@ class TextCursor {
     while (at_ < end_ && IsWordByte(*at_) && !AtJoint()) ++at_;
     return {begin, static_cast<size_t>(at_ - begin)};
   }
+  /// What is left of the line, of which blanks at both ends are no part, be it a comment; a
+  /// backslash means nothing.
+  std::string_view RestOfLine();
   /// Steps to the end of the line, not over it; joined lines are one.
   void SkipLine();
   /// The same, but a backslash means nothing.
@@ -77,6 +80,8 @@ class CoordinateCensus {
  public:
   /// Takes the next three words of the line.
   void AddPosition(TextCursor& cursor);
+  /// Takes a word that must be a number; its value.
+  double Add(std::string_view word, const TextCursor& cursor);
   ScalarType type() const { return needs_double_ ? ScalarType::kFloat64 : ScalarType::kFloat32; }
 
  private:

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "io/files/posix.h"
+#include "io/files/scratch_file.h"
 
 namespace folprom::io {
 namespace {
@@ -22,9 +23,7 @@ constexpr size_t kSmallestBuffer = 4096;
 constexpr size_t kLargestBuffer = size_t{1} << 20;
 
 std::string ParentOr(const std::string& parent) {
-  if (!parent.empty()) return parent;
-  const char* folder = std::getenv("TMPDIR");
-  return folder != nullptr && *folder != '\0' ? folder : "/tmp";
+  return parent.empty() ? TemporaryFolder() : parent;
 }
 
 // The folder, locked; none where another process has it or it is not this user's alone.

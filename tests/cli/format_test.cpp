@@ -56,11 +56,12 @@ TEST_F(Format, WhatTheOutputDoesNotHoldIsAWarning) {
 }
 
 TEST_F(Format, WhatTheInputHoldsBesideTheMeshIsAWarning) {
-  WriteText(Path("a.obj"), "g one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+  WriteText(Path("a.obj"), "g one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nl 1 2\nf 1 2 3\n");
   const Outcome outcome = Run({"encode", Path("a.obj"), "-o", Path("a.folp"), "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.json().at("warnings"),
-            std::vector<std::string>{"properties not kept: texture coordinates (vt), groups (g)"});
+  EXPECT_EQ(
+      outcome.json().at("warnings"),
+      std::vector<std::string>{"properties not kept: texture coordinates (vt), line elements (l)"});
 }
 
 }  // namespace

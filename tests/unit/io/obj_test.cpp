@@ -82,13 +82,32 @@ TEST(Obj, NamesWhatIsNotCoded) {
   EXPECT_EQ(source->notes().ignored_properties,
             (std::vector<std::string>{
                 "weights of vertices (v)", "colours of vertices (v)", "normals (vn)",
-                "texture coordinates (vt)", "points of parameter space (vp)", "groups (g)",
-                "object names (o)", "smoothing groups (s)", "materials (usemtl)",
-                "material files (mtllib)", "point elements (p)", "line elements (l)",
-                "curves (curv)", "ends of free-form elements (end)"}));
+                "texture coordinates (vt)", "points of parameter space (vp)", "point elements (p)",
+                "line elements (l)", "curves (curv)", "ends of free-form elements (end)"}));
+  EXPECT_EQ(source->remarks(),
+            (std::vector<std::string>{"obj_info mtllib a.mtl", "obj_info object 1 one",
+                                      "obj_info group 1 a b", "obj_info material 1 red",
+                                      "obj_info smoothing 1 1"}));
+  EXPECT_EQ(source->face_schema().attributes.size(), 4u);
   EXPECT_EQ(source->notes().polygons_dropped, 1u);
   EXPECT_EQ(source->notes().polygons_triangulated, 1u);
   EXPECT_EQ(testing::AllBlocks(*source).value().triangles.size(), 3u);
+}
+
+/// What a backslash joins to a line is no line of its own, in whatever is read.
+TEST(Obj, JoinsLinesOfStatements) {
+  const TemporaryFolder folder;
+  const auto source = OpenBytes(folder,
+                                "v 0 0 0\nv 1 0 0\nv 0 1 0\ns 1 \\\nf 3 2 1\nf 1 2 3\n"
+                                "g a\\\nf 2 3 1\n",
+                                "a.obj")
+                          .value();
+  EXPECT_EQ(testing::AllBlocks(*source).value().triangles,
+            (std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}}));
+  std::vector<uint8_t> rows;
+  source->ReadFaceAttributes(0, &rows).value();
+  // The group, then the smoothing group.
+  EXPECT_EQ(rows, (std::vector<uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
 }
 
 TEST(Obj, NamesTheLineOfAFault) {

@@ -40,26 +40,28 @@ std::string OneTriangle(const std::string& keyword, const std::string& vertex,
 TEST(TextOff, ReadsEveryKeyword) {
   struct Case {
     const char *keyword, *vertex, *face;
-    Names names;
+    size_t of_vertices, of_faces;  ///< attributes
   };
   for (const Case& c :
-       {Case{"OFF", "", "", {}}, Case{"", "", "", {}},
-        Case{"NOFF", " 0 0 1", "", {"normals of vertices"}},
-        Case{"COFF", " 255 0 0 255", "", {"colours of vertices"}},
-        Case{"COFF", " 0.5 0 0", "", {"colours of vertices"}},
-        Case{"CNOFF", " 0 0 1 9 9 9 9", "", {"normals of vertices", "colours of vertices"}},
-        Case{"STOFF", " 0 1", "", {"texture coordinates of vertices"}},
-        Case{"STCNOFF",
-             " 0 0 1 9 9 9 0 1",
-             " 3",
-             {"normals of vertices", "colours of vertices", "texture coordinates of vertices",
-              "colours of faces"}},
-        Case{"OFF", " 1 2 3", " 0.1 0.2 0.3 1", {"colours of vertices", "colours of faces"}}}) {
+       {Case{"OFF", "", "", 0, 0}, Case{"", "", "", 0, 0}, Case{"NOFF", " 0 0 1", "", 3, 0},
+        Case{"COFF", " 255 0 0 255", "", 4, 0}, Case{"COFF", " 0.5 0 0", "", 3, 0},
+        Case{"CNOFF", " 0 0 1 9 9 9 9", "", 7, 0}, Case{"STOFF", " 0 1", "", 2, 0},
+        Case{"STCNOFF", " 0 0 1 9 9 9 0 1", " 3", 8, 1},
+        Case{"OFF", " 1 2 3", " 0.1 0.2 0.3 1", 3, 4}}) {
     const std::string text = OneTriangle(c.keyword, c.vertex, c.face);
     EXPECT_EQ(MeshOf(text, "a.off").value().xyz, kTriangle) << text;
     EXPECT_EQ(MeshOf(text, "a.off").value().triangles, (std::vector<Triangle>{{0, 1, 2}})) << text;
-    EXPECT_EQ(NamesOf(text), c.names) << text;
+    EXPECT_EQ(NamesOf(text), Names{}) << text;
+    const TemporaryFolder folder;
+    const auto source = OpenBytes(folder, text, "a.off").value();
+    EXPECT_EQ(source->vertex_schema().attributes.size(), c.of_vertices) << text;
+    EXPECT_EQ(source->face_schema().attributes.size(), c.of_faces) << text;
   }
+}
+
+TEST(TextOff, NamesColoursThatSomeVerticesHave) {
+  EXPECT_EQ(NamesOf("OFF\n3 1 0\n0 0 0 1 1 1\n1 0 0\n0 1 0\n3 0 1 2\n"),
+            Names{"colours of vertices"});
 }
 
 TEST(TextOff, TakesCommentsBlankLinesLineEndsAndCountsBesideTheKeyword) {

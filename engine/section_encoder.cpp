@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/attributes/value.h"
 #include "engine/entropy/bit_coder.h"
+#include "engine/face_rows.h"
 #include "engine/order/face_value_digest.h"
 #include "engine/order/face_values.h"
 #include "engine/order/order_coder.h"
@@ -17,36 +17,6 @@ namespace folprom {
 namespace {
 
 constexpr const char* kSectionName = "section";
-
-/// Widens the ranges of the columns to the values of the rows; begins them where there are none.
-void AddToRanges(const io::FaceSchema& schema, std::span<const uint8_t> rows,
-                 std::vector<io::AttributeRange>* ranges) {
-  if (ranges->empty()) ranges->assign(schema.Columns(), {~uint64_t{0}, 0});
-  const size_t row_bytes = schema.RowBytes(), corner_bytes = schema.CornerBytes();
-  size_t column = 0, of_face = 0, of_corner = schema.FaceBytes();
-  const auto widen = [&](ScalarType type, size_t at, io::AttributeRange* range) {
-    for (; at < rows.size(); at += row_bytes) {
-      const uint64_t value = OrderedOf(type, &rows[at]);
-      range->least = std::min(range->least, value);
-      range->most = std::max(range->most, value);
-    }
-  };
-  for (const io::FaceAttribute& attribute : schema.attributes) {
-    for (size_t i = 0; i < attribute.columns(); ++i) {
-      io::AttributeRange* range = &(*ranges)[column++];
-      const size_t size = ScalarSize(attribute.type);
-      if (attribute.per_corner == 0) {
-        widen(attribute.type, of_face, range);
-        of_face += size;
-        continue;
-      }
-      for (size_t corner = 0; corner < 3; ++corner) {
-        widen(attribute.type, of_corner + corner * corner_bytes, range);
-      }
-      of_corner += size;
-    }
-  }
-}
 
 /// The scan in the numbers of its vertices along the curve, and the coding of its order.
 class SectionEncoder {
@@ -62,7 +32,6 @@ class SectionEncoder {
         space_(spill, "order", memory_bytes),
         streams_(spill, kSectionName, io::kSectionKinds, io::kSectionKinds << 20),
         row_stream_(spill, "face_values", 1, uint64_t{1} << 20),
-        row_bytes_(choice.face_values ? source.face_schema().RowBytes() : 0),
         progress_(progress) {
     for (size_t s = 0; s < scan.subtree_count(); ++s) {
       first_.push_back(first_.empty() ? 0 : first_.back() + scan.summary(s - 1).vertices);
@@ -151,7 +120,9 @@ class SectionEncoder {
       progress_.Advance(triangles.size());
     }
     row_stream_.Finish();
-    rows_ = space_.Adopt(row_stream_.Map(0));
+    if (choice_.face_values) {
+      rows_ = FaceRows(source_.face_schema(), faces_, space_.Adopt(row_stream_.Map(0)));
+    }
   }
 
   void CollectRows(size_t block) {
@@ -217,7 +188,7 @@ class SectionEncoder {
         fans.clear();
         coder.Code(bits, kOrderBlock, &triangles, &joins, &fans);
         AppendBlock(io::SectionKind::kPolygons, bits.TakeSegment(), &record);
-        if (values_) CodeRows(triangles, joins, RowsOfPolygons(triangles, joins, fans));
+        if (values_) CodeRows(triangles, joins, rows_.OfPolygons(triangles, joins, fans));
         progress_.Advance(triangles.size());
       }
     }
@@ -237,17 +208,6 @@ class SectionEncoder {
     return record;
   }
 
-  std::span<const uint8_t> RowOf(size_t triangle) const {
-    return rows_.subspan(triangle * row_bytes_, row_bytes_);
-  }
-  std::span<const uint8_t> FaceOf(size_t triangle) const {
-    return RowOf(triangle).first(source_.face_schema().FaceBytes());
-  }
-  std::span<const uint8_t> CornerOf(size_t triangle, size_t corner) const {
-    const size_t bytes = source_.face_schema().CornerBytes();
-    return RowOf(triangle).subspan(source_.face_schema().FaceBytes() + corner * bytes, bytes);
-  }
-
   /// A block of the section of face values.
   void CodeRows(std::span<const Face> triangles, std::span<const uint8_t> joins,
                 std::vector<uint8_t> rows) {
@@ -262,7 +222,7 @@ class SectionEncoder {
       for (size_t begin = 0; begin < faces_.size(); begin += kOrderBlock) {
         progress_.ThrowIfCancelled();
         const size_t count = std::min<size_t>(kOrderBlock, faces_.size() - begin);
-        const auto rows = rows_.subspan(begin * row_bytes_, count * row_bytes_);
+        const auto rows = rows_.Of(begin, count);
         const auto joins =
             joins_.empty() ? std::span<const uint8_t>() : joins_.subspan(begin, count);
         CodeRows(faces_.subspan(begin, count), joins, {rows.begin(), rows.end()});
@@ -272,72 +232,8 @@ class SectionEncoder {
       for (uint32_t begin = 0; begin < mesh.face_count(); begin += kOrderBlock) {
         progress_.ThrowIfCancelled();
         const uint32_t count = std::min(kOrderBlock, mesh.face_count() - begin);
-        CodeRows(mesh.faces.subspan(begin, count), {}, RowsOfNumbers(truth, begin, count));
+        CodeRows(mesh.faces.subspan(begin, count), {}, rows_.OfNumbers(truth, begin, count));
       }
-    }
-  }
-
-  /// Of triangles by number, which are turned.
-  std::vector<uint8_t> RowsOfNumbers(const PolygonTruth& truth, uint32_t begin,
-                                     uint32_t count) const {
-    std::vector<uint8_t> rows;
-    rows.reserve(count * row_bytes_);
-    for (uint32_t number = begin; number < begin + count; ++number) {
-      const uint32_t triangle = truth.TriangleOf(number);
-      Face face = faces_[triangle];
-      const uint32_t turns = TurnToSmallest(&face);
-      rows.insert(rows.end(), FaceOf(triangle).begin(), FaceOf(triangle).end());
-      for (size_t i = 0; i < 3; ++i) {
-        const auto corner = CornerOf(triangle, (i + turns) % 3);
-        rows.insert(rows.end(), corner.begin(), corner.end());
-      }
-    }
-    return rows;
-  }
-
-  /// Of polygons that begin with any of their corners.
-  std::vector<uint8_t> RowsOfPolygons(std::span<const Face> triangles,
-                                      std::span<const uint8_t> joins,
-                                      std::span<const PolygonTruth::Fan> fans) const {
-    std::vector<uint8_t> rows;
-    rows.reserve(triangles.size() * row_bytes_);
-    const auto add = [&](std::span<const uint8_t> values) {
-      rows.insert(rows.end(), values.begin(), values.end());
-    };
-    size_t fan = 0;
-    for (size_t begin = 0, end = 1; begin < triangles.size(); begin = end++) {
-      while (end < triangles.size() && joins[end] != 0) ++end;
-      const uint32_t first = fans[fan++].first;
-      const size_t corners = end - begin + 2,
-                   turn = TurnOf(triangles.subspan(begin, end - begin), first);
-      const auto add_corner = [&](size_t i) {
-        const size_t corner = (i + turn) % corners;
-        add(corner < 2 ? CornerOf(first, corner) : CornerOf(first + corner - 2, 2));
-      };
-      for (size_t i = 2; i < corners; ++i) {
-        add(FaceOf(first));
-        add_corner(0);
-        add_corner(i - 1);
-        add_corner(i);
-      }
-    }
-    return rows;
-  }
-
-  /// How far the corners of a polygon are turned from those of the scan, whose triangles begin with
-  /// `first`.
-  size_t TurnOf(std::span<const Face> triangles, size_t first) const {
-    const auto corner_of = [](const auto& faces, size_t begin, size_t i) {
-      return i < 2 ? faces[begin][i] : faces[begin + i - 2][2];
-    };
-    const size_t corners = triangles.size() + 2;
-    for (size_t turn = 0;; ++turn) {
-      size_t i = 0;
-      while (i < corners &&
-             corner_of(triangles, 0, i) == corner_of(faces_, first, (turn + i) % corners)) {
-        ++i;
-      }
-      if (i == corners || turn + 1 == corners) return turn;
     }
   }
 
@@ -348,7 +244,7 @@ class SectionEncoder {
       if (choice_.order) {
         for (uint32_t& corner : face) corner = place_of_[corner];
       }
-      digest.Add(face, !joins_.empty() && joins_[i] != 0, RowOf(i));
+      digest.Add(face, !joins_.empty() && joins_[i] != 0, rows_.Of(i));
       space_.Stepped(1);
     }
     digest.Close();
@@ -361,15 +257,14 @@ class SectionEncoder {
   const io::MappedFile& curve_places_;
   MappedSpace space_;
   io::SpillStreams streams_, row_stream_;
-  size_t row_bytes_;  ///< 0 where there are no values of faces
   parallel::Progress& progress_;
-  std::vector<uint64_t> first_;    ///< vertex of each subtree
-  std::span<Int3> positions_;      ///< by number along the curve
-  std::span<uint32_t> sequence_;   ///< of the vertices of the scan, these numbers
-  std::span<uint32_t> place_of_;   ///< its inverse, where the order is kept
-  std::span<Face> faces_;          ///< in the scan's order, of these numbers
-  std::span<uint8_t> joins_;       ///< of these, where there are polygons
-  std::span<const uint8_t> rows_;  ///< of these, where they have values
+  std::vector<uint64_t> first_;   ///< vertex of each subtree
+  std::span<Int3> positions_;     ///< by number along the curve
+  std::span<uint32_t> sequence_;  ///< of the vertices of the scan, these numbers
+  std::span<uint32_t> place_of_;  ///< its inverse, where the order is kept
+  std::span<Face> faces_;         ///< in the scan's order, of these numbers
+  std::span<uint8_t> joins_;      ///< of these, where there are polygons
+  FaceRows rows_;                 ///< of these, where they have values
   std::vector<io::AttributeRange> ranges_;
   std::optional<FaceValueCoder> values_;
   std::optional<io::SectionRecord>* value_record_ = nullptr;

@@ -61,8 +61,9 @@ EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptio
   report.bits = BitsOf(job.costs());
   for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
     const io::VertexAttribute& attribute = table.schema.attributes[a];
-    report.attributes.push_back(
-        {attribute.name, attribute.type, static_cast<double>(job.costs().attributes[a]) / 1024});
+    report.attributes.push_back({attribute.name, attribute.type,
+                                 static_cast<double>(job.costs().attributes[a]) / 1024,
+                                 table.attribute_ranges[a].step});
   }
   for (const io::FaceAttribute& attribute : table.face_schema.attributes) {
     report.face_attributes.push_back({attribute.name, attribute.type, attribute.per_corner});

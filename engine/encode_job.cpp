@@ -8,6 +8,7 @@
 #include "engine/codec/border_file.h"
 #include "engine/encode_estimate.h"
 #include "engine/exact_resolution.h"
+#include "engine/rounded_source.h"
 #include "engine/weld/soup.h"
 #include "io/container/checksum.h"
 #include "io/container/writer.h"
@@ -46,6 +47,11 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
   CheckOptions(options).value();
   source_ = io::MeshSource::Open(input, options.limits).value();
   spill_ = std::make_unique<io::SpillDirectory>(options.temporary_folder);
+  if (options.attribute_bits.empty() || !KeepsAttributes()) return;
+  RoundedSource rounded = RoundAttributes(std::move(source_), options.attribute_bits, progress);
+  source_ = std::move(rounded.source);
+  rounded_ = std::move(rounded.ranges);
+  rounding_warnings_ = std::move(rounded.warnings);
 }
 
 void EncodeJob::Weld(const io::AtomicFile& out, const std::string& spill_name) {
@@ -154,7 +160,12 @@ std::vector<ValueSpan> EncodeJob::SpansOfAttributes() const {
   if (!scan_) {
     return ValueSpansOf(schema, std::vector<io::AttributeRange>(schema.attributes.size()));
   }
-  return ValueSpansOf(schema, scan_->attribute_ranges());
+  const std::span<const io::AttributeRange> measured = scan_->attribute_ranges();
+  std::vector<io::AttributeRange> ranges(measured.begin(), measured.end());
+  for (size_t a = 0; a < rounded_.size(); ++a) {
+    if (rounded_[a].step > 0) ranges[a] = rounded_[a];
+  }
+  return ValueSpansOf(schema, ranges);
 }
 
 double EncodeJob::TypicalEdge() const {
@@ -348,7 +359,7 @@ io::FileTable EncodeJob::MakeTable() {
   if (Sections().face_values) table.face_schema = source_->face_schema();
   table.face_ranges = sections_.face_ranges;
   for (const ValueSpan& span : parameters_.attributes) {
-    table.attribute_ranges.push_back({span.least, span.most});
+    table.attribute_ranges.push_back({span.least, span.most, span.step, span.first});
   }
   costs_ = {};
   costs_.attributes.resize(parameters_.attributes.size(), 0);
@@ -436,6 +447,7 @@ uint64_t EncodeJob::WriteFile(const io::FileTable& table, io::AtomicFile& out) {
 std::vector<std::string> EncodeJob::Warnings() const {
   std::vector<std::string> warnings;
   if (!resume_note_.empty()) warnings.push_back(resume_note_);
+  warnings.insert(warnings.end(), rounding_warnings_.begin(), rounding_warnings_.end());
   const io::SourceNotes& notes = source_->notes();
   auto count = [](uint64_t n, const char* one, const char* many) {
     return std::to_string(n) + " " + (n == 1 ? one : many);

@@ -132,6 +132,8 @@ class EncodeJob {
   uint64_t resumed_subtrees_ = 0;
   Resolution resolution_;
   CodecParameters parameters_;
+  std::vector<io::AttributeRange> rounded_;  ///< of the attributes that are; see RoundedSource
+  std::vector<std::string> rounding_warnings_;
   std::unique_ptr<PartitionedScan> scan_;
   std::vector<Outcome> outcomes_;
   std::vector<uint64_t> first_vertex_;  ///< of each subtree

@@ -58,6 +58,10 @@ uint64_t HashSettings(const EncodeOptions& options) {
   record.Put(options.exact);
   record.Put(options.attributes);
   record.Put(options.weld);
+  for (const std::string& bits : options.attribute_bits) {
+    for (const char c : bits) record.Put(c);
+    record.Put('\n');
+  }
   return HashOf(record.bytes());
 }
 

@@ -88,8 +88,9 @@ Result<FileInfo> ReadInfo(const std::string& input, const Limits& limits) {
     info.codec = file.parameters().settings;
     for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
       const io::VertexAttribute& attribute = table.schema.attributes[a];
-      info.attributes.push_back(
-          {attribute.name, attribute.type, static_cast<double>(table.attribute_bits[a])});
+      info.attributes.push_back({attribute.name, attribute.type,
+                                 static_cast<double>(table.attribute_bits[a]),
+                                 table.attribute_ranges[a].step});
     }
     info.remarks = table.remarks;
     info.is_soup = table.is_soup;

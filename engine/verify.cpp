@@ -290,7 +290,7 @@ class Comparison {
 
   void CompareAttributes(VerifyReport* report) {
     const io::VertexSchema& schema = file_.table().schema;
-    report->attributes = schema.attributes.size();
+    CountAttributes(file_.table(), report);
     if (schema.attributes.empty()) return;
     const io::MeshSource& source = job_.source();
     const size_t blocks = source.vertex_block_count(), stride = schema.Stride();
@@ -303,12 +303,13 @@ class Comparison {
       for (size_t i = 0; i < values.size() / stride; ++i) {
         const uint64_t vertex = FinalVertex(job_.scan().vertex_map()[first + i]);
         const auto decoded = attributes_.bytes().subspan(vertex * stride, stride);
-        if (!std::equal(decoded.begin(), decoded.end(), &values[i * stride])) same = false;
+        const auto wanted = std::span<const uint8_t>(values).subspan(i * stride, stride);
+        if (!AreValuesAlike(file_.table(), decoded, wanted)) same = false;
       }
       if (b % 64 == 63) DropResident();
       progress_.Advance(1);
     });
-    if (!same) report->reason = "an attribute differs from that of the scan in its bits";
+    if (!same) report->reason = AttributesDiffer(file_.table());
   }
 
   void CompareFaces(uint64_t face_sum, VerifyReport* report) {

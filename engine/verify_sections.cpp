@@ -5,10 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/attributes/value.h"
 #include "folprom/float_bits.h"
 
 namespace folprom {
 namespace {
+
+/// Of a step: rounding to the type, of which a step is at least 4 spacings, may add an eighth.
+constexpr double kHalf = 0.5 + 0.125;
 
 void CompareVertices(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource& source,
                      parallel::Progress& progress, VerifyReport* report) {
@@ -26,17 +30,15 @@ void CompareVertices(const FolpFile& file, OrderedMesh& mesh, const io::MeshSour
     for (size_t i = 0; i < xyz.size(); ++i) check.Add(decoded[i], xyz[i]);
     if (has_attributes) {
       source.ReadVertexAttributes(b, &values).value();
-      same_attributes &= values == decoded_values;
+      same_attributes &= AreValuesAlike(file.table(), decoded_values, values);
     }
     source.DropResident();
     progress.Advance(1);
   }
   report->max_position_error = check.largest_error;
   CoordinateCheck::Judge(file, check.same_bits, report);
-  report->attributes = file.table().schema.attributes.size();
-  if (report->reason.empty() && !same_attributes) {
-    report->reason = "an attribute differs from that of the scan in its bits";
-  }
+  CountAttributes(file.table(), report);
+  if (report->reason.empty() && !same_attributes) report->reason = AttributesDiffer(file.table());
 }
 
 /// Gives out the faces of a decoded mesh one at a time.
@@ -133,6 +135,40 @@ void CompareSoup(const FolpFile& file, OrderedMesh& mesh, const io::MeshSource& 
 }
 
 }  // namespace
+
+bool AreValuesAlike(const io::FileTable& table, std::span<const uint8_t> decoded,
+                    std::span<const uint8_t> original) {
+  if (decoded.size() != original.size()) return false;
+  const size_t stride = table.schema.Stride();
+  size_t offset = 0;
+  for (size_t a = 0; a < table.schema.attributes.size(); ++a) {
+    const ScalarType type = table.schema.attributes[a].type;
+    const double step = table.attribute_ranges[a].step;
+    for (size_t at = offset; at < decoded.size(); at += stride) {
+      const uint64_t back = OrderedOf(type, &decoded[at]), was = OrderedOf(type, &original[at]);
+      if (step == 0 ? back != was
+                    : !(std::fabs(RealOf(type, back) - RealOf(type, was)) <= kHalf * step)) {
+        return false;
+      }
+    }
+    offset += ScalarSize(type);
+  }
+  return true;
+}
+
+std::string AttributesDiffer(const io::FileTable& table) {
+  const bool any_rounded = std::ranges::any_of(
+      table.attribute_ranges, [](const io::AttributeRange& range) { return range.step > 0; });
+  return std::string("an attribute differs from that of the scan in its bits") +
+         (any_rounded ? ", or by more than half a step" : "");
+}
+
+void CountAttributes(const io::FileTable& table, VerifyReport* report) {
+  report->attributes = table.schema.attributes.size();
+  for (const io::AttributeRange& range : table.attribute_ranges) {
+    report->rounded_attributes += range.step > 0 ? 1 : 0;
+  }
+}
 
 void CoordinateCheck::Add(double decoded, double original) {
   if (is_float) decoded = WidenFloat(std::bit_cast<float>(NarrowToFloatBits(decoded)));

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/folp_file.h"
@@ -80,6 +81,15 @@ uint64_t DigestOfFaceValues(const io::MeshSource& source, NumberOf number_of) {
   digest.Close();
   return digest.digest();
 }
+
+/// Are the values of vertices those of a scan: those that are rounded within half a step, the
+/// others bit by bit. Both as MeshSource::ReadVertexAttributes gives them.
+bool AreValuesAlike(const io::FileTable& table, std::span<const uint8_t> decoded,
+                    std::span<const uint8_t> original);
+/// The reason where they are not.
+std::string AttributesDiffer(const io::FileTable& table);
+/// Counts in the report what AreValuesAlike compared.
+void CountAttributes(const io::FileTable& table, VerifyReport* report);
 
 /// How far a decoded coordinate is from the scan's, and whether their bits differ.
 struct CoordinateCheck {

@@ -79,6 +79,10 @@ std::vector<Key> EncodeKeys(EncodeConfig& config) {
        "colours, normals, all scalars of vertices, and comments come back; needs offsets = "
        "\"lattice\"",
        ""},
+      {"encode", "attribute_bits", &o.attribute_bits,
+       "float attributes of vertices that are rounded: \"normal=10\", each to 2^N values over its "
+       "range",
+       ""},
       {"encode", "keep_order", &o.keep_order,
        "vertices and faces come back in the scan's order, faces with their first corner first; "
        "needs offsets = \"lattice\"",

@@ -40,6 +40,7 @@ struct EncodeFlags {
   std::optional<double> tolerance;
   bool exact = false;
   bool no_attributes = false;
+  std::vector<std::string> attribute_bits;
   bool keep_order = false;
   bool weld = false;
   std::optional<uint64_t> subtree_vertices;
@@ -63,6 +64,7 @@ EncodeConfig Settings(const EncodeFlags& flags) {
   if (flags.bits || flags.tolerance) options.exact = false;
   if (flags.exact) options.exact = true;
   if (flags.no_attributes) options.attributes = false;
+  if (!flags.attribute_bits.empty()) options.attribute_bits = flags.attribute_bits;
   if (flags.keep_order) options.keep_order = true;
   if (flags.weld) options.weld = true;
   if (flags.subtree_vertices) {
@@ -217,6 +219,11 @@ Verb AddEncode(CLI::App& program) {
       ->excludes(tolerance);
   verb->add_flag("--no-attributes", flags->no_attributes,
                  "Without colours, normals and what else vertices have, and without comments");
+  verb->add_option("--attribute-bits", flags->attribute_bits,
+                   "Rounds a float attribute to 2^N values over its range, normal=10; may be given "
+                   "again")
+      ->allow_extra_args(false)
+      ->type_name("NAME=N");
   verb->add_flag("--keep-order", flags->keep_order,
                  "Vertices and faces come back in the scan's order");
   verb->add_flag("--weld", flags->weld,

@@ -154,6 +154,7 @@ std::string InfoText(const std::string& path, const FileInfo& info) {
                  info.box_lo[1], info.box_lo[2], info.box_hi[0], info.box_hi[1], info.box_hi[2]);
   for (const AttributeInfo& attribute : info.attributes) {
     fmt::format_to(out, "{} {}", NameOf(attribute.type), attribute.name);
+    if (attribute.step > 0) fmt::format_to(out, " in steps of {:.6g}", attribute.step);
     if (info.has_bits && info.vertices > 0) {
       fmt::format_to(out, ": {:.3f} bits per vertex",
                      attribute.bits / static_cast<double>(info.vertices));

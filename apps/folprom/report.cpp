@@ -36,8 +36,10 @@ Json AttributesJson(std::span<const AttributeInfo> attributes, uint64_t vertices
   for (const AttributeInfo& attribute : attributes) {
     const Json bits =
         vertices > 0 ? Json(attribute.bits / static_cast<double>(vertices)) : Json(nullptr);
-    list.push_back(
-        {{"name", attribute.name}, {"type", NameOf(attribute.type)}, {"bits_per_vertex", bits}});
+    list.push_back({{"name", attribute.name},
+                    {"type", NameOf(attribute.type)},
+                    {"bits_per_vertex", bits},
+                    {"step", attribute.step > 0 ? Json(attribute.step) : Json(nullptr)}});
   }
   return list;
 }

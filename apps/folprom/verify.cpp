@@ -38,6 +38,7 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
                {"vertices", report.vertices},
                {"faces", report.faces},
                {"attributes", report.attributes},
+               {"rounded_attributes", report.rounded_attributes},
                {"face_attributes", report.face_attributes},
                {"order_kept", report.order_kept},
                {"welded", report.welded},
@@ -51,8 +52,10 @@ void PrintReport(const VerifyFlags& flags, const VerifyReport& report, double se
     if (report.against) {
       text += fmt::format(", largest error {:.6g} against {}", report.max_position_error,
                           flags.original);
-      if (report.attributes > 0) {
-        text += fmt::format(", {} attributes equal", report.attributes);
+      const uint64_t equal = report.attributes - report.rounded_attributes;
+      if (equal > 0) text += fmt::format(", {} attributes equal", equal);
+      if (report.rounded_attributes > 0) {
+        text += fmt::format(", {} attributes within half a step", report.rounded_attributes);
       }
       if (report.face_attributes > 0) {
         text += fmt::format(", {} attributes of faces equal", report.face_attributes);

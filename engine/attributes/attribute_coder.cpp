@@ -34,7 +34,7 @@ template <class Coder>
 void AttributeCoder::CodeRoot(Coder& coder, const uint8_t* truth) {
   for (const Column& column : columns_) {
     uint64_t value = column.span.least;
-    if constexpr (Coder::kEncoding) value = OrderedOf(column.span.type, truth + column.offset);
+    if constexpr (Coder::kEncoding) value = OrderedOf(column.span, truth + column.offset);
     const uint64_t least = column.span.least;
     ordered_.push_back(least + CodeEvenly(coder, column.span.most - least, value - least,
                                           "coded attribute lies outside its range"));
@@ -57,7 +57,7 @@ void AttributeCoder::CodeNew(Coder& coder, const NewVertex& added, const uint8_t
     const Column& column = columns_[c];
     if (meters != nullptr) coder.SetMeter(&(*meters)[column.attribute]);
     uint64_t value = column.span.least;
-    if constexpr (Coder::kEncoding) value = OrderedOf(column.span.type, truth + column.offset);
+    if constexpr (Coder::kEncoding) value = OrderedOf(column.span, truth + column.offset);
     double miss = 0;
     before.rest = RestOfNormal(c, added.vertex);
     value = models_[c].Code(coder, Look(c, added.parent), before, value, &miss);
@@ -87,7 +87,7 @@ std::optional<double> AttributeCoder::RestOfNormal(size_t column, uint32_t verte
   const ValueSpan &x = columns_[column - 2].span, &y = columns_[column - 1].span;
   if (x.normal_axis != 1 || y.normal_axis != 2) return std::nullopt;
   const uint64_t* values = &ordered_[vertex * columns_.size()];
-  const double nx = RealOf(x.type, values[column - 2]), ny = RealOf(y.type, values[column - 1]);
+  const double nx = RealOf(x, values[column - 2]), ny = RealOf(y, values[column - 1]);
   const double square = 1 - nx * nx - ny * ny;
   return square > 0 ? std::sqrt(square) : 0;
 }
@@ -126,7 +126,7 @@ std::vector<uint8_t> AttributeCoder::Values() const {
     for (size_t a = 0; a < spans_.size(); ++a) {
       const bool varies = c < columns_.size() && columns_[c].attribute == a;
       const uint64_t value = varies ? ordered_[vertex * columns_.size() + c++] : spans_[a].least;
-      to = StoreOrdered(spans_[a].type, value, to);
+      to = StoreOrdered(spans_[a], value, to);
     }
   }
   return bytes;

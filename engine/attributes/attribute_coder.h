@@ -64,7 +64,7 @@ class AttributeCoder {
   /// The length that nx and ny of the vertex leave to nz, where the column is nz.
   std::optional<double> RestOfNormal(size_t column, uint32_t vertex) const;
   double Real(uint32_t vertex, size_t column) const {
-    return RealOf(columns_[column].span.type, ordered_[vertex * columns_.size() + column]);
+    return RealOf(columns_[column].span, ordered_[vertex * columns_.size() + column]);
   }
 
   std::vector<ValueSpan> spans_;

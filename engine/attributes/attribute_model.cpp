@@ -39,7 +39,7 @@ void Learn(double size, LearnedScale* scale) {
 }
 
 double FirstUnit(const ValueSpan& span) {
-  const double range = RealOf(span.type, span.most) - RealOf(span.type, span.least);
+  const double range = RealOf(span, span.most) - RealOf(span, span.least);
   return range > 1e-30 && range < 1e30 ? range / 32 : 1;
 }
 
@@ -88,7 +88,7 @@ uint64_t AttributeModel::Code(Coder& coder, const RingValues& ring, const Vertex
   value = values_.Code(coder, {size, spread * kSizes + apart, last * kBeforeThat + last2},
                        predictions, span_, value);
 
-  const double real = RealOf(span_.type, value);
+  const double real = RealOf(span_, value);
   *miss = Bounded((real - ring.mean) / unit);
   regression_.Learn(features, *miss);
   scales_.Learn(size, std::fabs(Bounded((real - mean) / unit)));

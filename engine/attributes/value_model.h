@@ -20,7 +20,38 @@ struct ValueSpan {
   uint64_t least = 0, most = 0;  ///< ordered, most >= least
   /// 1, 2, 3: it is the x, y, z of the normal of the surface; 0: of nothing that is known.
   uint32_t normal_axis = 0;
+  /// Above 0: the ordered numbers are the k of first + k step, to which the floats are rounded.
+  double step = 0, first = 0;
 };
+
+/// The real value of an ordered number.
+inline double RealOf(const ValueSpan& span, uint64_t ordered) {
+  if (span.step > 0) return span.first + span.step * static_cast<double>(ordered);
+  return RealOf(span.type, ordered);
+}
+/// A real number between the values before `ordered` and at it.
+inline double BoundaryBelow(const ValueSpan& span, uint64_t ordered) {
+  if (span.step > 0) return span.first + span.step * (static_cast<double>(ordered) - 0.5);
+  return BoundaryBelow(span.type, ordered);
+}
+/// The ordered number nearest to a finite real one.
+inline uint64_t NearestOrdered(const ValueSpan& span, double real) {
+  if (span.step > 0) {
+    const double k = (real - span.first) / span.step + 0.5;
+    return static_cast<uint64_t>(std::clamp(k, 0.0, static_cast<double>(span.most)));
+  }
+  return NearestOrdered(span.type, real);
+}
+/// Of the value stored at `bytes`.
+inline uint64_t OrderedOf(const ValueSpan& span, const uint8_t* bytes) {
+  const uint64_t ordered = OrderedOf(span.type, bytes);
+  return span.step > 0 ? NearestOrdered(span, RealOf(span.type, ordered)) : ordered;
+}
+/// Stores the value; returns where the next one goes.
+inline uint8_t* StoreOrdered(const ValueSpan& span, uint64_t ordered, uint8_t* bytes) {
+  if (span.step > 0) ordered = NearestOrdered(span.type, RealOf(span, ordered));
+  return StoreOrdered(span.type, ordered, bytes);
+}
 
 /// A logistic density over the real value.
 struct ValuePrediction {
@@ -43,8 +74,8 @@ class ValueModel {
     search.below.fill(detail::LogisticPower(-1e300, 0, 1));
     search.above.fill(detail::LogisticPower(1e300, 0, 1));
     const uint64_t base =
-        std::clamp(NearestOrdered(span.type, predictions[0].mean), span.least, span.most);
-    const uint32_t grain = GrainOf(predictions[0], span.type, base);
+        std::clamp(NearestOrdered(span, predictions[0].mean), span.least, span.most);
+    const uint32_t grain = GrainOf(predictions[0], span, base);
     const bool upper = base < span.most && Decide(search, 0, base + 1);
     // Groups of 1, 2, 4 .. grains away from the base.
     uint32_t octave = 0;
@@ -98,12 +129,14 @@ class ValueModel {
   }
 
   /// Octave of the distance, in values, that is a quarter of the scale at the base.
-  static uint32_t GrainOf(const ValuePrediction& prediction, ScalarType type, uint64_t base) {
+  static uint32_t GrainOf(const ValuePrediction& prediction, const ValueSpan& span, uint64_t base) {
     const double quarter = prediction.scale / 4;
     uint64_t distance = 0;
-    if (IsFloat(type)) {
-      const uint64_t up = NearestOrdered(type, prediction.mean + quarter);
-      const uint64_t down = NearestOrdered(type, prediction.mean - quarter);
+    if (span.step > 0) {
+      distance = static_cast<uint64_t>(std::clamp(quarter / span.step, 0.0, 4294967295.0));
+    } else if (IsFloat(span.type)) {
+      const uint64_t up = NearestOrdered(span.type, prediction.mean + quarter);
+      const uint64_t down = NearestOrdered(span.type, prediction.mean - quarter);
       distance = std::min(up > base ? up - base : 0, base > down ? base - down : 0);
     } else {
       distance = static_cast<uint64_t>(std::clamp(quarter, 0.0, 4294967295.0));
@@ -116,7 +149,7 @@ class ValueModel {
   bool Decide(Search<Coder>& search, uint32_t slot, uint64_t at) {
     Powers here;
     std::array<int32_t, P> inputs;
-    const double boundary = BoundaryBelow(search.span.type, at);
+    const double boundary = BoundaryBelow(search.span, at);
     for (size_t p = 0; p < P; ++p) {
       const ValuePrediction& prediction = search.predictions[p];
       here[p] = detail::LogisticPower(boundary, prediction.mean, prediction.scale);

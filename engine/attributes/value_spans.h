@@ -31,8 +31,8 @@ inline std::vector<ValueSpan> ValueSpansOf(const io::VertexSchema& schema,
                                            std::span<const io::AttributeRange> ranges) {
   std::vector<ValueSpan> spans;
   for (size_t a = 0; a < schema.attributes.size(); ++a) {
-    spans.push_back(
-        {schema.attributes[a].type, ranges[a].least, ranges[a].most, NormalAxis(schema, a)});
+    spans.push_back({schema.attributes[a].type, ranges[a].least, ranges[a].most,
+                     NormalAxis(schema, a), ranges[a].step, ranges[a].first});
   }
   return spans;
 }

@@ -166,21 +166,22 @@ std::string ReadText(size_t longest, std::string_view what, ByteReader* in) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// Beside the type of an attribute: it is rounded to steps.
+constexpr uint8_t kRounded = 16;
+
 void WriteRange(const AttributeRange& range, ByteWriter* out) {
   out->Varint(range.least);
   out->Varint(range.most - range.least);
 }
 
-AttributeRange ReadRange(ScalarType type, ByteReader* in) {
-  const uint64_t largest = LargestOrdered(type);
+AttributeRange ReadRange(uint64_t largest, ByteReader* in) {
   AttributeRange range;
   range.least = in->VarintUpTo(largest, "least value of an attribute");
   range.most = range.least + in->VarintUpTo(largest - range.least, "range of an attribute");
   return range;
 }
 
-ScalarType ReadType(ByteReader* in) {
-  const uint8_t type = in->U8();
+ScalarType TypeOf(uint8_t type, const ByteReader* in) {
   if (type >= kScalarTypes) in->Fail("type of an attribute does not exist");
   return static_cast<ScalarType>(type);
 }
@@ -203,11 +204,11 @@ void ReadFaceSchema(ByteReader* in, FileTable* table) {
   for (uint64_t i = 0; i < count; ++i) {
     FaceAttribute attribute;
     attribute.name = ReadText(kLongestAttributeName, "length of an attribute's name", in);
-    attribute.type = ReadType(in);
+    attribute.type = TypeOf(in->U8(), in);
     attribute.per_corner =
         static_cast<uint32_t>(in->VarintUpTo(kMostPerCorner, "numbers of a corner"));
     for (size_t c = 0; c < attribute.columns(); ++c) {
-      table->face_ranges.push_back(ReadRange(attribute.type, in));
+      table->face_ranges.push_back(ReadRange(LargestOrdered(attribute.type), in));
     }
     table->face_schema.attributes.push_back(std::move(attribute));
   }
@@ -219,8 +220,14 @@ void WriteExtras(const FileTable& table, ByteWriter* out) {
   out->Varint(attributes.size());
   for (size_t i = 0; i < attributes.size(); ++i) {
     WriteText(attributes[i].name, out);
-    out->U8(static_cast<uint8_t>(attributes[i].type));
-    WriteRange(table.attribute_ranges[i], out);
+    const AttributeRange& range = table.attribute_ranges[i];
+    const auto type = static_cast<uint8_t>(attributes[i].type);
+    out->U8(range.step > 0 ? type | kRounded : type);
+    if (range.step > 0) {
+      out->F64(range.first);
+      out->F64(range.step);
+    }
+    WriteRange(range, out);
   }
   out->Varint(table.schema.before_position);
   out->Varint(table.remarks.size());
@@ -233,8 +240,15 @@ void ReadExtras(ByteReader* in, FileTable* table) {
   for (uint64_t i = 0; i < count; ++i) {
     VertexAttribute& attribute = table->schema.attributes.emplace_back();
     attribute.name = ReadText(kLongestAttributeName, "length of an attribute's name", in);
-    attribute.type = ReadType(in);
-    table->attribute_ranges.push_back(ReadRange(attribute.type, in));
+    const uint8_t type = in->U8();
+    const bool is_rounded = (type & kRounded) != 0;
+    attribute.type = TypeOf(type & static_cast<uint8_t>(~kRounded), in);
+    const double first = is_rounded ? in->F64() : 0, step = is_rounded ? in->F64() : 0;
+    if (is_rounded && !(step > 0)) in->Fail("steps of an attribute not above 0");
+    AttributeRange range = ReadRange(is_rounded ? kMostSteps : LargestOrdered(attribute.type), in);
+    range.first = first;
+    range.step = step;
+    table->attribute_ranges.push_back(range);
   }
   table->attribute_bits.resize(count, 0);
   table->schema.before_position = in->VarintUpTo(count, "attributes before the position");

@@ -11,8 +11,9 @@
 namespace folprom::io {
 
 inline constexpr size_t kMostAttributes = 255;
-inline constexpr size_t kLongestAttributeName = 255;          ///< bytes
-inline constexpr size_t kMostRemarkBytes = size_t{16} << 20;  ///< of all lines together
+inline constexpr size_t kLongestAttributeName = 255;             ///< bytes
+inline constexpr uint64_t kMostSteps = (uint64_t{1} << 24) - 1;  ///< of a rounded attribute
+inline constexpr size_t kMostRemarkBytes = size_t{16} << 20;     ///< of all lines together
 
 /// A number that each vertex has.
 struct VertexAttribute {
@@ -53,6 +54,9 @@ inline bool IsRemark(std::string_view line) {
 struct AttributeRange {
   uint64_t least = 0;
   uint64_t most = 0;
+  /// Above 0: floats that are rounded to first + k step; the range is that of the whole numbers k.
+  double step = 0;
+  double first = 0;
   bool operator==(const AttributeRange&) const = default;
 };
 

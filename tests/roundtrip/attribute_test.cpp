@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <string>
 
@@ -287,11 +288,113 @@ TEST_F(AttributeTest, InfoTellsOfThem) {
 TEST_F(AttributeTest, OtherFormatsWarnOfWhatTheyDoNotHold) {
   AttributeMesh content{IntegerTerrain(20, 20, 7), 0, {"comment one"}};
   content.mesh.attributes = Colours(content.mesh, 4);
+  content.mesh.attributes.push_back(content.mesh.attributes[0]);
+  content.mesh.attributes.back().name = "level";
   Code(content, {});
-  for (const char* name : {"out.obj", "out.off", "out.stl"}) {
+  for (const std::string name : {"out.obj", "out.off", "out.stl"}) {
     const std::vector<std::string> warnings = Decode(folp_, folder_.File(name)).warnings;
     ASSERT_GE(warnings.size(), 2u) << name;
-    EXPECT_NE(warnings[0].find("red, green, blue, alpha"), std::string::npos) << warnings[0];
+    const std::string lost = name == "out.stl" ? ": red, green, blue, alpha, level" : ": level";
+    EXPECT_TRUE(warnings[0].ends_with(lost)) << warnings[0];
+  }
+}
+
+/// Normals of a bumpy sheet, a quality, and a flag that is no float.
+AttributeMesh Sheet() {
+  AttributeMesh content{IntegerTerrain(60, 50, 3), 0, {}};
+  std::vector<DecodedAttribute>& all = content.mesh.attributes;
+  for (const char* name : {"nx", "ny", "nz"}) all.push_back({name, ScalarType::kFloat32, {}});
+  all.push_back({"quality", ScalarType::kFloat64, {}});
+  all.push_back({"flag", ScalarType::kUint8, {}});
+  for (const auto& p : content.mesh.positions) {
+    const double x = std::sin(p[0] / 9), y = std::cos(p[1] / 7),
+                 size = std::sqrt(x * x + y * y + 1);
+    AppendValue(static_cast<float>(x / size), &all[0]);
+    AppendValue(static_cast<float>(y / size), &all[1]);
+    AppendValue(static_cast<float>(1 / size), &all[2]);
+    AppendValue(x * y * 1000, &all[3]);
+    AppendValue(static_cast<uint8_t>(p[0] > 3), &all[4]);
+  }
+  return content;
+}
+
+TEST_F(AttributeTest, RoundedOnesAreWithinHalfAStepAndTakeFewerBits) {
+  const EncodeReport whole = Code(Sheet(), ExactOptions());
+  EncodeOptions options = ExactOptions();
+  options.overwrite = options.keep_order = true;
+  options.attribute_bits = {"normal=10", "quality=16"};
+  const EncodeReport report = Encode(scan_, folp_, options);
+  EXPECT_TRUE(report.warnings.empty());
+  const AttributeMesh decoded = Decoded();
+  const auto real = [](const DecodedAttribute& attribute, size_t vertex) {
+    if (attribute.type == ScalarType::kFloat64) {
+      double value;
+      std::memcpy(&value, &attribute.values[vertex * sizeof value], sizeof value);
+      return value;
+    }
+    float value;
+    std::memcpy(&value, &attribute.values[vertex * sizeof value], sizeof value);
+    return static_cast<double>(value);
+  };
+  for (size_t a = 0; a < 4; ++a) {
+    const double step = report.attributes[a].step;
+    EXPECT_GT(step, 0);
+    EXPECT_EQ(ReadInfo(folp_).value().attributes[a].step, step);
+    EXPECT_LT(report.attributes[a].bits, whole.attributes[a].bits);
+    double largest = 0;
+    for (size_t v = 0; v < decoded.mesh.positions.size(); ++v) {
+      largest = std::max(largest, std::fabs(real(decoded.mesh.attributes[a], v) -
+                                            real(original_.mesh.attributes[a], v)));
+    }
+    EXPECT_LE(largest, 0.501 * step);
+    EXPECT_GT(largest, 0.3 * step);
+  }
+  EXPECT_LT(report.bits.attributes, 0.6 * whole.bits.attributes);
+  EXPECT_EQ(decoded.mesh.attributes[4].values, original_.mesh.attributes[4].values);
+  EXPECT_EQ(report.attributes[4].step, 0);
+  for (const bool keep_order : {true, false}) {
+    options.keep_order = keep_order;
+    Encode(scan_, folp_, options);
+    const VerifyReport verified = Verify(folp_, scan_);
+    EXPECT_TRUE(verified.lossless) << verified.reason;
+    EXPECT_EQ(verified.attributes, 5u);
+    EXPECT_EQ(verified.rounded_attributes, 4u);
+    EXPECT_TRUE(Verify(folp_, "").lossless);
+  }
+}
+
+TEST_F(AttributeTest, OneThatIsRoundedElsewhereIsSeenByVerify) {
+  AttributeMesh content = Sheet();
+  EncodeOptions options = ExactOptions();
+  options.attribute_bits = {"quality=10"};
+  Code(content, options);
+  double value = 0;
+  std::vector<uint8_t>& values = content.mesh.attributes[3].values;
+  std::memcpy(&value, &values[800], sizeof value);
+  value += 2000.0 / 1023;
+  std::memcpy(&values[800], &value, sizeof value);
+  WriteAttributes(folder_.File("other.ply"), content);
+  EXPECT_TRUE(Verify(folp_, scan_).lossless);
+  EXPECT_FALSE(Verify(folp_, folder_.File("other.ply")).lossless);
+}
+
+TEST_F(AttributeTest, BitsOfWhatCannotBeRoundedAreAWarningOrRefused) {
+  AttributeMesh content = Sheet();
+  const float nan = std::nanf("");
+  std::memcpy(content.mesh.attributes[0].values.data(), &nan, sizeof nan);
+  EncodeOptions options = ExactOptions();
+  options.attribute_bits = {"nx=8", "flag=3", "none=3"};
+  const EncodeReport report = Code(content, options);
+  ASSERT_EQ(report.warnings.size(), 3u);
+  EXPECT_NE(report.warnings[0].find("no float flag"), std::string::npos) << report.warnings[0];
+  EXPECT_NE(report.warnings[1].find("no float none"), std::string::npos) << report.warnings[1];
+  EXPECT_NE(report.warnings[2].find("not finite"), std::string::npos) << report.warnings[2];
+  ExpectWhole();
+  for (const char* text : {"normal", "normal=0", "normal=25", "=8", "", "normal=1x", "normal=-1"}) {
+    options.attribute_bits = {text};
+    const Result<void> checked = CheckOptions(options);
+    ASSERT_FALSE(checked.ok()) << text;
+    EXPECT_EQ(checked.error().kind, ErrorKind::kUsage);
   }
 }
 

@@ -13,6 +13,7 @@ struct AttributeInfo {
   std::string name;
   ScalarType type = ScalarType::kUint8;
   double bits = 0;  ///< spent on it over the whole file, without its value at each subtree's root
+  double step = 0;  ///< above 0: its values are rounded to multiples of this behind the least one
 };
 
 struct FaceAttributeInfo {

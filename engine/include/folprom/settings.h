@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "folprom/limits.h"
 #include "folprom/result.h"
@@ -117,6 +118,9 @@ struct EncodeOptions {
   /// The scalar properties that vertices have beside x, y and z come back bit for bit, and so do
   /// comments. Only with Offsets::kLattice. false: they are dropped.
   bool attributes = true;
+  /// "NAME=N": a float attribute of the vertices is rounded to 2^N values, evenly over its range; N
+  /// is 1 .. 24. "normal" stands for nx, ny and nz. All others come back bit for bit.
+  std::vector<std::string> attribute_bits;
   /// Vertices and faces come back in the scan's order, and each face with its first corner first;
   /// no more than 1,431,655,765 of either. Only with Offsets::kLattice.
   bool keep_order = false;

@@ -103,10 +103,14 @@ TEST(PlyFormats, AgreeOnAFileWithAllThatAFileCanHave) {
     EXPECT_EQ(source->notes().polygons_triangulated, 1u);
     EXPECT_EQ(source->notes().polygons_dropped, 1u);
     EXPECT_EQ(source->notes().strips, 0u);
-    EXPECT_EQ(
-        source->notes().ignored_properties,
-        (std::vector<std::string>{"camera.matrix", "camera.view", "vertex.tags", "edge.vertex1",
-                                  "edge.vertex2", "face.area", "face.red", "tail.weights"}));
+    EXPECT_EQ(source->notes().ignored_properties,
+              (std::vector<std::string>{"camera.matrix", "camera.view", "vertex.tags",
+                                        "edge.vertex1", "edge.vertex2", "tail.weights"}));
+    const FaceSchema& schema = source->face_schema();
+    ASSERT_EQ(schema.attributes.size(), 2u);
+    EXPECT_EQ(schema.attributes[0].name, "area");
+    EXPECT_EQ(schema.attributes[1].name, "red");
+    EXPECT_EQ(schema.before_indices, 1u);
     source->DropResident();
     EXPECT_EQ(testing::AllBlocks(*source).value().xyz, testing::MixedPositions());
   }

@@ -99,6 +99,22 @@ TEST(AttributeTableTest, TypesAndRangesThatDoNotExistAreRefused) {
   EXPECT_NE(TableFault(table), "");
 }
 
+TEST(AttributeTableTest, StepsComeBackAndThoseThatCannotBeAreRefused) {
+  FileTable table = Table();
+  table.attribute_ranges[2] = {0, 1023, 0.25, -7};
+  EXPECT_TRUE(Read(OnlyTable(table)).value() == table);
+  const auto expect_fault = [](size_t attribute, const AttributeRange& range) {
+    FileTable other = Table();
+    other.attribute_ranges[attribute] = range;
+    EXPECT_NE(TableFault(other), "");
+  };
+  expect_fault(0, {0, 7, 0.25, 0});  // of whole numbers
+  expect_fault(2, {0, kMostSteps + 1, 0.25, 0});
+  expect_fault(2, {0, 7, -0.25, 0});
+  expect_fault(2, {0, 7, 1e308, 1e308});
+  expect_fault(2, {0, 7, 0, 1});
+}
+
 TEST(AttributeTableTest, RemarksThatAreNoLinesOfAHeaderAreRefused) {
   ExpectRefused("comment one", "comment\none", "a remark that is no line");
   ExpectRefused("comment one", "comment\rone", "a remark that is no line");

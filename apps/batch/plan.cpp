@@ -35,8 +35,8 @@ std::string CodecText(const Job& job) {
   for (const cli::Key& key : cli::EncodeKeys(copy.encode)) {
     const bool alters = key.table == "codec" || key.name == "bits" || key.name == "tolerance" ||
                         key.name == "exact" || key.name == "attributes" ||
-                         key.name == "attribute_bits" || key.name == "keep_order" ||
-                         key.name == "weld";
+                        key.name == "attribute_bits" || key.name == "keep_order" ||
+                        key.name == "weld";
     if (alters) text += std::string(key.name) + "=" + ValueText(key) + ";";
   }
   return text;

@@ -85,7 +85,9 @@ int Run(const RdFlags& flags) {
 Verb AddRd(CLI::App& program) {
   auto flags = std::make_shared<RdFlags>();
   CLI::App* verb = program.add_subcommand("rd", kDescription);
-  verb->add_option("SCAN", flags->scan, "Mesh to encode: PLY, OBJ, STL or OFF")->type_name("")->required();
+  verb->add_option("SCAN", flags->scan, "Mesh to encode: PLY, OBJ, STL or OFF")
+      ->type_name("")
+      ->required();
   verb->add_option("--config", flags->config, "Settings of the encoder")->type_name("C.toml");
   verb->add_option("--bits", flags->bits,
                    "Lattice of 2^N - 1 steps along the longest side; 1 .. 24")

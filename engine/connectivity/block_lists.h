@@ -21,9 +21,7 @@ class BlockLists {
   uint32_t size() const { return static_cast<uint32_t>(lists_.size()); }
   uint32_t SizeOf(uint32_t list) const { return lists_[list].size; }
   /// Valid until a value is appended to any list.
-  std::span<const T> Of(uint32_t list) const {
-    return {ValuesOf(lists_[list]), lists_[list].size};
-  }
+  std::span<const T> Of(uint32_t list) const { return {ValuesOf(lists_[list]), lists_[list].size}; }
   T& At(uint32_t list, uint32_t place) { return ValuesOf(lists_[list])[place]; }
 
   /// Asks for the memory that Prefetch will read, and that Of will; say so early.

@@ -27,9 +27,12 @@ bool KeepsAttributes(const EncodeOptions& options) {
 }
 
 WeldKind WeldFor(const io::MeshSource& source, const EncodeOptions& options) {
-  const bool has_attributes =
-      KeepsAttributes(options) && !source.vertex_schema().attributes.empty();
-  if (!options.weld) return !has_attributes && IsSoup(source) ? WeldKind::kSoup : WeldKind::kAsItIs;
+  const bool keeps = KeepsAttributes(options);
+  const bool has_attributes = keeps && !source.vertex_schema().attributes.empty();
+  if (!options.weld) {
+    const bool as_it_is = has_attributes || (keeps && !source.face_schema().empty());
+    return !as_it_is && IsSoup(source) ? WeldKind::kSoup : WeldKind::kAsItIs;
+  }
   if (has_attributes) {
     throw Failure(ErrorKind::kInput,
                   source.path() +

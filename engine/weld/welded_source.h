@@ -38,6 +38,10 @@ class WeldedSource final : public io::MeshSource {
   uint64_t vertex_block_begin(size_t block) const override;
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override;
   const io::VertexSchema& vertex_schema() const override { return scan_->vertex_schema(); }
+  const io::FaceSchema& face_schema() const override { return scan_->face_schema(); }
+  Result<void> ReadFaceAttributes(size_t block, std::vector<uint8_t>* rows) const override {
+    return scan_->ReadFaceAttributes(block, rows);
+  }
   const std::vector<std::string>& remarks() const override { return scan_->remarks(); }
   size_t triangle_block_count() const override { return scan_->triangle_block_count(); }
   const io::SourceNotes& notes() const override { return scan_->notes(); }

@@ -124,7 +124,7 @@ TEST(PlyAttributes, WrittenComeBackWhereTheyStood) {
   const TemporaryFolder folder;
   const std::string path = folder.File("out.ply");
   MeshShape shape{
-      3, 0, kFloat32, {{{"a", kInt16}, {"b", kFloat64}, {"c", kUint8}}, 1}, {"comment c"}};
+      3, 0, kFloat32, {{{"a", kInt16}, {"b", kFloat64}, {"c", kUint8}}, 1}, {}, {"comment c"}};
   auto writer = MeshWriter::Create(path, shape, false).value();
   std::vector<uint8_t> values;
   for (uint8_t v = 0; v < 33; ++v) values.push_back(v);

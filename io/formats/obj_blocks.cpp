@@ -190,15 +190,16 @@ class ObjIndexer {
   // The number of values tells two lines that became one.
   void WalkAttribute(std::string_view keyword) {
     const size_t list = keyword == "vn" ? kNormals : kTextures;
-    std::array<double, 3> values{};
+    std::array<std::string_view, 3> words;
     size_t count = 0;
     for (std::string_view word; !(word = cursor_.Word()).empty(); ++count) {
-      const double value = list_numbers_[list].Add(word, cursor_);
-      if (count < values.size()) values[count] = value;
+      if (count < words.size()) words[count] = word;
     }
-    if (count < (keyword == "vn" ? 3 : 1) || count > 3) {
+    if (count < (keyword == "vn" ? 3 : 1) || count > words.size()) {
       cursor_.Fail(std::string(keyword) + " has " + std::to_string(count) + " values");
     }
+    std::array<double, 3> values{};
+    for (size_t i = 0; i < count; ++i) values[i] = list_numbers_[list].Add(words[i], cursor_);
     lists_[list].Add(values, count, file_);
   }
 

@@ -69,7 +69,7 @@ std::vector<SmallScan> SmallScans() {
                              "8 3 0 1 2 6 1 2 3 4 5 6\n9 2 0 1 1 5\n"});
   header.replace(header.find("ascii"), 5, "binary_little_endian");
   for (int i = 0; i < 12; ++i) Put(static_cast<float>(i * i), &header);
-  for (const uint8_t corners : {3, 4, 2}) {
+  for (const uint8_t corners : {uint8_t{3}, uint8_t{4}, uint8_t{2}}) {
     Put(static_cast<uint8_t>(40 * corners), &header);
     Put(corners, &header);
     for (int32_t i = 0; i < corners; ++i) Put(i, &header);

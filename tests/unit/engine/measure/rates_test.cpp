@@ -52,7 +52,7 @@ TEST_F(Rates, AgreeWithEncodingDecodingAndComparing) {
   DecodeOptions options;
   options.bits_per_vertex = 3;
   const DecodeReport report = DecodeFile(folp, lod, options, *runner_, progress_).value();
-  const Comparison c = CompareFiles(scan_, lod, {20'000, ""}, *runner_, progress_).value();
+  const Comparison c = CompareFiles(scan_, lod, {20'000, "", {}}, *runner_, progress_).value();
   EXPECT_EQ(curve.points[0].vertices, report.vertices);
   EXPECT_EQ(curve.points[0].bytes, ReadInfo(folp).value().layers[report.layers - 1].end_byte);
   EXPECT_EQ(curve.points[0].comparison.forward.mean, c.forward.mean);

@@ -53,3 +53,37 @@ fan_cuts = false
 pivot_order = false
 least_layer = 20
 EOF
+"$program" decode folp/one_subtree -o "$scans/soup.stl" -q 2>/dev/null
+encode soup "$scans/soup.stl" --bits 8 --keep-order <<EOF
+$coarse
+EOF
+cat >"$scans/faces.ply" <<EOF
+ply
+format ascii 1.0
+element vertex 5
+property float x
+property float y
+property float z
+property float nx
+property float ny
+property float nz
+element face 4
+property uchar quality
+property list uchar int vertex_indices
+property list uchar float texcoord
+property short flags
+end_header
+0 0 0 0 0 1
+4 0 0 0 0.6 0.8
+4 4 1 0.8 0 0.6
+0 4 2 0 0 1
+2 2 5 0 1 0
+3 3 0 1 4 6 0 0 1 0 0.5 0.5 -7
+3 3 1 2 4 6 1 0 1 1 0.5 0.5 -7
+3 3 2 3 4 6 1 1 0 1 0.25 0.75 9
+4 4 3 2 1 0 8 0 1 1 1 1 0 0 0 300
+EOF
+encode faces "$scans/faces.ply" --exact <<EOF
+EOF
+encode faces_in_order "$scans/faces.ply" --bits 6 --keep-order --attribute-bits normal=7 <<EOF
+EOF

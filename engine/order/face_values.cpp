@@ -257,7 +257,7 @@ void FaceValueCoder::Code(Coder& coder, std::span<const Face> triangles,
       // A truth has the same there.
       std::ranges::copy(last_face_, row);
       std::copy_n(last_corners_.data(), corner_.bytes, corners);
-      std::copy_n(&last_corners_[2 * corner_.bytes], corner_.bytes, corners + corner_.bytes);
+      std::copy_n(last_corners_.data() + 2 * corner_.bytes, corner_.bytes, corners + corner_.bytes);
     } else {
       Outcome none = kNotCoded;
       CodeGroup(

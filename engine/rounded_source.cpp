@@ -7,15 +7,16 @@
 
 #include "engine/attribute_bits.h"
 #include "engine/attributes/value_model.h"
+#include "io/formats/derived_source.h"
 
 namespace folprom {
 namespace {
 
 /// Answers as the scan but for the rounded attributes.
-class RoundedMeshSource final : public io::MeshSource {
+class RoundedMeshSource final : public io::DerivedSource {
  public:
   RoundedMeshSource(std::unique_ptr<io::MeshSource> scan, std::vector<io::AttributeRange> ranges)
-      : scan_(std::move(scan)) {
+      : DerivedSource(std::move(scan)) {
     size_t offset = 0;
     for (size_t a = 0; a < ranges.size(); ++a) {
       const ScalarType type = vertex_schema().attributes[a].type;
@@ -27,20 +28,8 @@ class RoundedMeshSource final : public io::MeshSource {
     }
   }
 
-  const std::string& path() const override { return scan_->path(); }
-  uint64_t vertex_count() const override { return scan_->vertex_count(); }
-  uint64_t triangle_count() const override { return scan_->triangle_count(); }
-  ScalarType coordinate_type() const override { return scan_->coordinate_type(); }
-  size_t vertex_block_count() const override { return scan_->vertex_block_count(); }
-  uint64_t vertex_block_begin(size_t block) const override {
-    return scan_->vertex_block_begin(block);
-  }
-  Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override {
-    return scan_->ReadVertexBlock(block, xyz);
-  }
-  const io::VertexSchema& vertex_schema() const override { return scan_->vertex_schema(); }
   Result<void> ReadVertexAttributes(size_t block, std::vector<uint8_t>* values) const override {
-    Result<void> read = scan_->ReadVertexAttributes(block, values);
+    Result<void> read = DerivedSource::ReadVertexAttributes(block, values);
     const size_t stride = vertex_schema().Stride();
     for (const Column& column : columns_) {
       for (size_t at = column.offset; at < values->size(); at += stride) {
@@ -50,29 +39,12 @@ class RoundedMeshSource final : public io::MeshSource {
     }
     return read;
   }
-  const io::FaceSchema& face_schema() const override { return scan_->face_schema(); }
-  Result<void> ReadFaceAttributes(size_t block, std::vector<uint8_t>* rows) const override {
-    return scan_->ReadFaceAttributes(block, rows);
-  }
-  const std::vector<std::string>& remarks() const override { return scan_->remarks(); }
-  size_t triangle_block_count() const override { return scan_->triangle_block_count(); }
-  const io::SourceNotes& notes() const override { return scan_->notes(); }
-  Result<void> CheckUnchanged() const override { return scan_->CheckUnchanged(); }
-  void DropResident() const override { scan_->DropResident(); }
 
  private:
   struct Column {
     ValueSpan span;
     size_t offset = 0;  ///< of its bytes among those of a vertex
   };
-
-  Result<void> ReadFaces(size_t block, std::vector<io::Triangle>* triangles,
-                         std::vector<uint8_t>* joins) const override {
-    return joins == nullptr ? scan_->ReadTriangleBlock(block, triangles)
-                            : scan_->ReadPolygonBlock(block, triangles, joins);
-  }
-
-  std::unique_ptr<io::MeshSource> scan_;
   std::vector<Column> columns_;
 };
 

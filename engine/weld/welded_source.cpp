@@ -8,10 +8,10 @@ namespace folprom {
 WeldedSource::WeldedSource(std::unique_ptr<io::MeshSource> scan, uint64_t memory_bytes,
                            std::unique_ptr<io::SpillDirectory> spill, parallel::Runner& runner,
                            parallel::Progress& progress)
-    : scan_(std::move(scan)),
-      packed_(scan_->coordinate_type()),
+    : DerivedSource(std::move(scan)),
+      packed_(DerivedSource::scan().coordinate_type()),
       spill_(std::move(spill)),
-      weld_(WeldPositions(*scan_, memory_bytes, *spill_, runner, progress)) {}
+      weld_(WeldPositions(DerivedSource::scan(), memory_bytes, *spill_, runner, progress)) {}
 
 size_t WeldedSource::vertex_block_count() const {
   return weld_.count / io::kBlockVertices + (weld_.count % io::kBlockVertices > 0);
@@ -30,10 +30,15 @@ Result<void> WeldedSource::ReadVertexBlock(size_t block, std::vector<double>* xy
   return {};
 }
 
+Result<void> WeldedSource::ReadVertexAttributes(size_t /*block*/,
+                                                std::vector<uint8_t>* values) const {
+  values->clear();
+  return {};
+}
+
 Result<void> WeldedSource::ReadFaces(size_t block, std::vector<io::Triangle>* triangles,
                                      std::vector<uint8_t>* joins) const {
-  const Result<void> read = joins == nullptr ? scan_->ReadTriangleBlock(block, triangles)
-                                             : scan_->ReadPolygonBlock(block, triangles, joins);
+  const Result<void> read = DerivedSource::ReadFaces(block, triangles, joins);
   if (!read) return read;
   for (io::Triangle& triangle : *triangles) {
     for (uint64_t& vertex : triangle) vertex = NumberOf(vertex);
@@ -42,7 +47,7 @@ Result<void> WeldedSource::ReadFaces(size_t block, std::vector<io::Triangle>* tr
 }
 
 void WeldedSource::DropResident() const {
-  scan_->DropResident();
+  DerivedSource::DropResident();
   weld_.numbers.DropResident();
   weld_.positions.DropResident();
 }

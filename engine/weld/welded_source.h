@@ -2,27 +2,24 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "engine/weld/packed_position.h"
 #include "engine/weld/position_weld.h"
-#include "io/formats/mesh_source.h"
+#include "io/formats/derived_source.h"
 #include "io/spill/spill.h"
 
 namespace folprom {
 
 /// Its vertices stand in the order in which the scan has them first, its faces as in the scan. Of a
 /// scan whose vertices have attributes, these are lost. Thread-safe as the scan.
-class WeldedSource final : public io::MeshSource {
+class WeldedSource final : public io::DerivedSource {
  public:
   /// Welds; see WeldPositions. spill: empty.
   WeldedSource(std::unique_ptr<io::MeshSource> scan, uint64_t memory_bytes,
                std::unique_ptr<io::SpillDirectory> spill, parallel::Runner& runner,
                parallel::Progress& progress);
 
-  /// As it was.
-  const io::MeshSource& scan() const { return *scan_; }
   /// The vertex that one of the scan became.
   uint64_t NumberOf(uint64_t vertex) const {
     return io::MappedArray<uint64_t>(weld_.numbers)[vertex];
@@ -30,29 +27,18 @@ class WeldedSource final : public io::MeshSource {
   uint64_t spill_bytes() const { return spill_->SizeBytes(); }
   uint64_t peak_spill_bytes() const { return weld_.peak_spill_bytes; }
 
-  const std::string& path() const override { return scan_->path(); }
   uint64_t vertex_count() const override { return weld_.count; }
-  uint64_t triangle_count() const override { return scan_->triangle_count(); }
-  ScalarType coordinate_type() const override { return scan_->coordinate_type(); }
   size_t vertex_block_count() const override;
   uint64_t vertex_block_begin(size_t block) const override;
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override;
-  const io::VertexSchema& vertex_schema() const override { return scan_->vertex_schema(); }
-  const io::FaceSchema& face_schema() const override { return scan_->face_schema(); }
-  Result<void> ReadFaceAttributes(size_t block, std::vector<uint8_t>* rows) const override {
-    return scan_->ReadFaceAttributes(block, rows);
-  }
-  const std::vector<std::string>& remarks() const override { return scan_->remarks(); }
-  size_t triangle_block_count() const override { return scan_->triangle_block_count(); }
-  const io::SourceNotes& notes() const override { return scan_->notes(); }
-  Result<void> CheckUnchanged() const override { return scan_->CheckUnchanged(); }
+  /// Nothing: see above.
+  Result<void> ReadVertexAttributes(size_t block, std::vector<uint8_t>* values) const override;
   void DropResident() const override;
 
  private:
   Result<void> ReadFaces(size_t block, std::vector<io::Triangle>* triangles,
                          std::vector<uint8_t>* joins) const override;
 
-  std::unique_ptr<io::MeshSource> scan_;
   PackedPosition packed_;
   std::unique_ptr<io::SpillDirectory> spill_;
   PositionWeld weld_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/codec/encode_subtree.h"
+#include "engine/kept_attributes.h"
 #include "engine/mesh/types.h"
 #include "engine/run_guarded.h"
 #include "engine/weld/position_weld.h"

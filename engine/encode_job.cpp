@@ -8,6 +8,7 @@
 #include "engine/codec/border_file.h"
 #include "engine/encode_estimate.h"
 #include "engine/exact_resolution.h"
+#include "engine/kept_attributes.h"
 #include "engine/rounded_source.h"
 #include "engine/weld/soup.h"
 #include "io/container/checksum.h"
@@ -47,7 +48,7 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
   CheckOptions(options).value();
   source_ = io::MeshSource::Open(input, options.limits).value();
   spill_ = std::make_unique<io::SpillDirectory>(options.temporary_folder);
-  if (options.attribute_bits.empty() || !KeepsAttributes()) return;
+  if (options.attribute_bits.empty() || !KeepsAttributes(options_)) return;
   RoundedSource rounded = RoundAttributes(std::move(source_), options.attribute_bits, progress);
   source_ = std::move(rounded.source);
   rounded_ = std::move(rounded.ranges);
@@ -123,7 +124,7 @@ void EncodeJob::Partition() {
   if (source_->vertex_count() > 0) {
     scan_ = PartitionScan(*source_, resolution_.lattice, settings,
                           WorkingBytes(options_.limits.memory_bytes), runner_, *spill_, progress_,
-                          KeepsAttributes());
+                          KeepsAttributes(options_));
   }
   source_->DropResident();
   outcomes_.resize(scan_ ? scan_->subtree_count() : 0);
@@ -151,10 +152,8 @@ void EncodeJob::SetParameters(double typical_edge) {
       RefineLayersFor(parameters_.extent, typical_edge, per_octave, offsets), first_steps, parted);
 }
 
-bool EncodeJob::KeepsAttributes() const { return folprom::KeepsAttributes(options_); }
-
 std::vector<ValueSpan> EncodeJob::SpansOfAttributes() const {
-  if (!KeepsAttributes()) return {};
+  if (!KeepsAttributes(options_)) return {};
   const io::VertexSchema& schema = source_->vertex_schema();
   // A scan without vertices is not partitioned.
   if (!scan_) {
@@ -297,7 +296,7 @@ SectionChoice EncodeJob::Sections() const {
   choice.polygons =
       options_.codec.offsets == Offsets::kLattice && source_->notes().polygons_triangulated > 0;
   choice.face_values =
-      KeepsAttributes() && !source_->face_schema().empty() && source_->triangle_count() > 0;
+      KeepsAttributes(options_) && !source_->face_schema().empty() && source_->triangle_count() > 0;
   return choice;
 }
 
@@ -354,7 +353,7 @@ io::FileTable EncodeJob::MakeTable() {
   table.extent = resolution_.lattice.extent;
   table.tolerance = resolution_.tolerance;
   table.codec = WriteParameters(parameters_);
-  if (KeepsAttributes()) table.schema = source_->vertex_schema();
+  if (KeepsAttributes(options_)) table.schema = source_->vertex_schema();
   if (options_.attributes) table.remarks = source_->remarks();
   if (Sections().face_values) table.face_schema = source_->face_schema();
   table.face_ranges = sections_.face_ranges;
@@ -464,7 +463,7 @@ std::vector<std::string> EncodeJob::Warnings() const {
                        " of fewer than three corners dropped");
   }
   std::vector<std::string> ignored = notes.ignored_properties;
-  if (!KeepsAttributes()) {
+  if (!KeepsAttributes(options_)) {
     for (const io::VertexAttribute& attribute : source_->vertex_schema().attributes) {
       ignored.push_back("vertex." + attribute.name);
     }

@@ -90,8 +90,6 @@ class EncodeJob {
 
  private:
   void MeasureExactScan();
-  /// Are the attributes of vertices coded, if there are any.
-  bool KeepsAttributes() const;
   std::vector<ValueSpan> SpansOfAttributes() const;
   SectionChoice Sections() const;
   /// What stays in memory of a subtree and its seam once their bits are spilled.

@@ -5,6 +5,7 @@
 
 #include "engine/codec/border_file.h"
 #include "engine/encode_job.h"
+#include "engine/kept_attributes.h"
 #include "io/container/checksum.h"
 
 namespace folprom {
@@ -44,7 +45,7 @@ bool EncodeJob::Resume(const std::string& output, folprom::Resume resume) {
 bool EncodeJob::Recover(DoneWork work) {
   PartitionState& state = work.partition;
   resolution_ = state.resolution;
-  const size_t stride = KeepsAttributes() ? source_->vertex_schema().Stride() : 0;
+  const size_t stride = KeepsAttributes(options_) ? source_->vertex_schema().Stride() : 0;
   const bool with_exact = resolution_.lattice.exact && resolution_.lattice.exact->step.has_rests;
   scan_ = ReopenScan(*spill_, std::move(state.summaries), std::move(state.ranges), with_exact,
                      stride, state.peak_spill_bytes);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/kept_attributes.h"
+
 namespace folprom {
 
 bool IsSoup(const io::MeshSource& source) {
@@ -20,10 +22,6 @@ bool IsSoup(const io::MeshSource& source) {
     if (block % 64 == 63) source.DropResident();
   }
   return true;
-}
-
-bool KeepsAttributes(const EncodeOptions& options) {
-  return options.attributes && options.codec.offsets == Offsets::kLattice;
 }
 
 WeldKind WeldFor(const io::MeshSource& source, const EncodeOptions& options) {

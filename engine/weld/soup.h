@@ -12,9 +12,6 @@ namespace folprom {
 /// other vertices. Reads triangles up to the first that is not so. Throws Failure.
 bool IsSoup(const io::MeshSource& source);
 
-/// Are the attributes of vertices coded, if there are any.
-bool KeepsAttributes(const EncodeOptions& options);
-
 /// What becomes of a scan before all else.
 enum class WeldKind : uint8_t {
   kAsItIs = 0,

@@ -115,8 +115,8 @@ struct EncodeOptions {
   /// Positions come back bit for bit: floats and doubles, also -0.0, infinities and NaN. `bits` and
   /// `tolerance` are not used. Needs Offsets::kLattice.
   bool exact = false;
-  /// The scalar properties that vertices have beside x, y and z come back bit for bit, and so do
-  /// comments. Only with Offsets::kLattice. false: they are dropped.
+  /// What vertices have beside x, y and z, and faces and their corners beside vertices, comes back
+  /// bit for bit with Offsets::kLattice; comments come back with any. false: they are dropped.
   bool attributes = true;
   /// "NAME=N": a float attribute of the vertices is rounded to 2^N values, evenly over its range; N
   /// is 1 .. 24. "normal" stands for nx, ny and nz. All others come back bit for bit.

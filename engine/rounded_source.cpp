@@ -72,6 +72,59 @@ double SpacingOf(ScalarType type, const RealRange& range) {
   return static_cast<double>(std::nextafter(near, INFINITY)) - static_cast<double>(near);
 }
 
+/// To how many bits each attribute is to be rounded; 0: it is not.
+std::vector<uint32_t> BitsOf(const std::vector<io::VertexAttribute>& attributes,
+                             const std::vector<std::string>& attribute_bits,
+                             std::vector<std::string>* warnings) {
+  std::vector<uint32_t> bits(attributes.size(), 0);
+  const std::vector<AttributeBits> asked = ParseAttributeBits(attribute_bits).value();
+  for (const AttributeBits& one : asked) {
+    bool found = false;
+    for (size_t a = 0; a < attributes.size(); ++a) {
+      if (!one.Names(attributes[a].name) || !IsFloat(attributes[a].type)) continue;
+      bits[a] = one.bits;
+      found = true;
+    }
+    if (!found) warnings->push_back("attribute_bits: the vertices have no float " + one.name);
+  }
+  return bits;
+}
+
+/// Of the attributes that have bits.
+std::vector<RealRange> MeasureRanges(const io::MeshSource& source,
+                                     const std::vector<uint32_t>& bits,
+                                     parallel::Progress& progress) {
+  const std::vector<io::VertexAttribute>& attributes = source.vertex_schema().attributes;
+  std::vector<RealRange> ranges(attributes.size());
+  if (std::ranges::all_of(bits, [](uint32_t n) { return n == 0; })) return ranges;
+  progress.StartStage("measure attributes", source.vertex_count());
+  std::vector<uint8_t> values;
+  const size_t stride = source.vertex_schema().Stride();
+  for (size_t block = 0; block < source.vertex_block_count(); ++block) {
+    progress.ThrowIfCancelled();
+    source.ReadVertexAttributes(block, &values).value();
+    size_t offset = 0;
+    for (size_t a = 0; a < attributes.size(); ++a) {
+      for (size_t at = offset; bits[a] > 0 && at < values.size(); at += stride) {
+        ranges[a].Add(attributes[a].type, &values[at]);
+      }
+      offset += ScalarSize(attributes[a].type);
+    }
+    source.DropResident();
+    progress.Advance(values.size() / stride);
+  }
+  return ranges;
+}
+
+/// 2^bits values over a finite range; a step of 0 where finer steps than the type has would be
+/// none.
+io::AttributeRange EvenValues(ScalarType type, const RealRange& range, uint32_t bits) {
+  const uint64_t most = (uint64_t{1} << bits) - 1;
+  const double step = (range.most - range.least) / static_cast<double>(most);
+  if (!std::isfinite(step) || step < 4 * SpacingOf(type, range)) return {};
+  return {0, most, step, range.least};
+}
+
 }  // namespace
 
 RoundedSource RoundAttributes(std::unique_ptr<io::MeshSource> source,
@@ -80,49 +133,16 @@ RoundedSource RoundAttributes(std::unique_ptr<io::MeshSource> source,
   RoundedSource rounded;
   const std::vector<io::VertexAttribute>& attributes = source->vertex_schema().attributes;
   rounded.ranges.resize(attributes.size());
-  const std::vector<AttributeBits> asked = ParseAttributeBits(attribute_bits).value();
-  std::vector<uint32_t> bits(attributes.size(), 0);
-  for (const AttributeBits& one : asked) {
-    bool found = false;
-    for (size_t a = 0; a < attributes.size(); ++a) {
-      if (!one.Names(attributes[a].name) || !IsFloat(attributes[a].type)) continue;
-      bits[a] = one.bits;
-      found = true;
-    }
-    if (!found)
-      rounded.warnings.push_back("attribute_bits: the vertices have no float " + one.name);
-  }
-  std::vector<RealRange> ranges(attributes.size());
-  if (std::ranges::any_of(bits, [](uint32_t n) { return n > 0; })) {
-    progress.StartStage("measure attributes", source->vertex_count());
-    std::vector<uint8_t> values;
-    const size_t stride = source->vertex_schema().Stride();
-    for (size_t block = 0; block < source->vertex_block_count(); ++block) {
-      progress.ThrowIfCancelled();
-      source->ReadVertexAttributes(block, &values).value();
-      size_t offset = 0;
-      for (size_t a = 0; a < attributes.size(); ++a) {
-        for (size_t at = offset; bits[a] > 0 && at < values.size(); at += stride) {
-          ranges[a].Add(attributes[a].type, &values[at]);
-        }
-        offset += ScalarSize(attributes[a].type);
-      }
-      source->DropResident();
-      progress.Advance(values.size() / std::max<size_t>(stride, 1));
-    }
-  }
+  const std::vector<uint32_t> bits = BitsOf(attributes, attribute_bits, &rounded.warnings);
+  const std::vector<RealRange> ranges = MeasureRanges(*source, bits, progress);
   for (size_t a = 0; a < attributes.size(); ++a) {
     if (bits[a] == 0 || source->vertex_count() == 0) continue;
-    if (!ranges[a].is_finite) {
+    if (ranges[a].is_finite) {
+      rounded.ranges[a] = EvenValues(attributes[a].type, ranges[a], bits[a]);
+    } else {
       rounded.warnings.push_back("attribute_bits: " + attributes[a].name +
                                  " has values that are not finite, all are kept bit for bit");
-      continue;
     }
-    const uint64_t most = (uint64_t{1} << bits[a]) - 1;
-    const double step = (ranges[a].most - ranges[a].least) / static_cast<double>(most);
-    // Finer steps than the type has would be none.
-    if (!std::isfinite(step) || step < 4 * SpacingOf(attributes[a].type, ranges[a])) continue;
-    rounded.ranges[a] = {0, most, step, ranges[a].least};
   }
   rounded.source = std::make_unique<RoundedMeshSource>(std::move(source), rounded.ranges);
   return rounded;

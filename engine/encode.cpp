@@ -28,10 +28,10 @@ BitCounts BitsOf(const CostMeters& costs) {
 EncodeReport Encode(EncodeJob& job, const std::string& output, const EncodeOptions& options,
                     Resume resume) {
   auto out = io::AtomicFile::Create(output, options.overwrite).value();
+  // What the sections need of each subtree is not among what is kept.
   const bool is_kept = resume != Resume::kNever && !job.HasSections();
   job.Weld(*out, is_kept ? SpillName(job.source().path(), output) : "");
-  // What the sections need of each subtree is not among what is kept.
-  if (resume == Resume::kNever || job.HasSections() || !job.Resume(output, resume)) {
+  if (!is_kept || !job.Resume(output, resume)) {
     job.CheckRoom(*out);
     job.MeasureScan();
     job.Partition();

@@ -6,7 +6,6 @@
 
 namespace folprom {
 
-/// Widens the ranges of the columns to the values of the rows; begins them where there are none.
 void AddToRanges(const io::FaceSchema& schema, std::span<const uint8_t> rows,
                  std::vector<io::AttributeRange>* ranges) {
   if (ranges->empty()) ranges->assign(schema.Columns(), {~uint64_t{0}, 0});

@@ -36,14 +36,14 @@ void AddSeamFaces(std::span<const SeamFace> faces, const std::vector<std::vector
   for (const SeamFace& f : faces) AddFace(digest, at(f[0]), at(f[1]), at(f[2]));
 }
 
-[[noreturn]] void ThrowCounts(const std::string& input) {
+[[noreturn]] void ThrowCountsDiffer(const std::string& input) {
   throw Failure(ErrorKind::kCorrupt, input + ": decoded counts differ from those of the table");
 }
 
 }  // namespace
 
 void FileSink::AddSubtree(const SubtreePart& part) {
-  if (part.positions.size() > expected_.vertices - vertices_) ThrowCountsDiffer();
+  if (part.positions.size() > expected_.vertices - vertices_) ThrowCountsDiffer(input_);
   xyz_.clear();
   xyz_.reserve(part.positions.size() * 3);
   for (size_t v = 0; v < part.positions.size(); ++v) {
@@ -71,16 +71,14 @@ void FileSink::AddSeam(std::span<const SeamFace> faces) {
 }
 
 void FileSink::Flush() {
-  if (triangles_.size() > expected_.faces - faces_) ThrowCountsDiffer();
+  if (triangles_.size() > expected_.faces - faces_) ThrowCountsDiffer(input_);
   writer_.AppendFaces(triangles_).value();
   faces_ += triangles_.size();
   triangles_.clear();
 }
 
-void FileSink::ThrowCountsDiffer() const { ThrowCounts(input_); }
-
 void FileSink::CheckComplete() const {
-  if (vertices_ != expected_.vertices || faces_ != expected_.faces) ThrowCountsDiffer();
+  if (vertices_ != expected_.vertices || faces_ != expected_.faces) ThrowCountsDiffer(input_);
 }
 
 void SoupSink::AddSubtree(const SubtreePart& part) {
@@ -105,7 +103,7 @@ void SoupSink::AddSeam(std::span<const SeamFace> faces) {
 
 void SoupSink::Flush() {
   const size_t count = xyz_.size() / 9;
-  if (count > expected_.faces - faces_) ThrowCounts(input_);
+  if (count > expected_.faces - faces_) ThrowCountsDiffer(input_);
   writer_.AppendVertices(xyz_).value();
   writer_.AppendFaces(SoupFaces(faces_, count)).value();
   faces_ += count;
@@ -113,7 +111,7 @@ void SoupSink::Flush() {
 }
 
 void SoupSink::CheckComplete() const {
-  if (vertices_ != expected_.vertices || faces_ != expected_.faces) ThrowCounts(input_);
+  if (vertices_ != expected_.vertices || faces_ != expected_.faces) ThrowCountsDiffer(input_);
 }
 
 std::vector<io::Triangle> SoupFaces(uint64_t first, size_t count) {

@@ -33,7 +33,6 @@ class FileSink final : public MeshSink {
 
  private:
   void Flush();
-  [[noreturn]] void ThrowCountsDiffer() const;
   Lattice lattice_;
   io::LayerRecord expected_;
   std::string input_;

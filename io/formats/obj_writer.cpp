@@ -1,9 +1,10 @@
 // OBJ: colours of vertices behind their coordinates, texture coordinates and normals as "vt" and
 // "vn", named statements before the faces that they hold for.
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "io/formats/obj_statements.h"
@@ -15,69 +16,66 @@ namespace {
 /// "vt" or "vn" of corners: which line says the same already.
 class CornerLines {
  public:
-  /// columns: of the numbers of a corner; none where corners have no such list.
+  /// None where corners have no such list of at most `most` numbers.
   CornerLines(const char* keyword, const FaceSchema& schema, std::string_view name, size_t most)
       : keyword_(keyword) {
     size_t offset = 0;
     for (const FaceAttribute& attribute : schema.attributes) {
       if (attribute.per_corner == 0) continue;
       if (attribute.name == name && attribute.per_corner <= most && IsFloat(attribute.type)) {
-        type_ = attribute.type;
+        columns_.clear();
+        for (size_t i = 0; i < attribute.per_corner; ++i) {
+          columns_.emplace_back(attribute.type, i * ScalarSize(attribute.type));
+        }
         offset_ = offset;
-        columns_ = attribute.per_corner;
-        decimals_ = DecimalWriter(type_);
-        known_.resize(kKnown);
+        bytes_ = attribute.bytes();
+        decimals_ = DecimalWriter(attribute.type);
       }
       offset += attribute.bytes();
     }
+    known_.resize(kKnown * bytes_);
   }
 
-  bool any() const { return columns_ > 0; }
+  bool any() const { return !columns_.empty(); }
   uint64_t payloads_lost() const { return decimals_.payloads_lost(); }
 
   /// Its number; 0 where the corner has none. Writes the line where it is not known.
   uint64_t NumberOf(std::span<const uint8_t> corner, OutputBuffer& out) {
-    const size_t bytes = columns_ * ScalarSize(type_);
-    const std::string values(reinterpret_cast<const char*>(corner.data() + offset_), bytes);
-    bool is_nothing = true;
-    for (size_t i = 0; i < columns_; ++i) is_nothing &= std::isnan(Real(values, i));
-    if (is_nothing) return 0;
-    Line& line = known_[Slot(values)];
-    if (line.number > 0 && line.values == values) return line.number;
-    line = {values, ++lines_};
+    const auto values = corner.subspan(offset_, bytes_);
+    if (std::ranges::all_of(
+            columns_, [&](const TextColumn& column) { return std::isnan(column.Real(values)); })) {
+      return 0;
+    }
+    const auto found = numbers_.find(ViewOf(values));
+    if (found != numbers_.end()) return found->second;
+    const std::span<uint8_t> kept = std::span(known_).subspan(lines_ % kKnown * bytes_, bytes_);
+    if (lines_ >= kKnown) numbers_.erase(ViewOf(kept));
+    std::ranges::copy(values, kept.begin());
+    numbers_.emplace(ViewOf(kept), ++lines_);
     out.Add(keyword_);
-    for (size_t i = 0; i < columns_; ++i) {
+    for (const TextColumn& column : columns_) {
       out.Add(" ");
-      out.Add(decimals_.Text(Real(values, i)));
+      out.Add(decimals_.Text(column.Real(values)));
     }
     out.Add("\n");
-    return line.number;
+    return lines_;
   }
 
  private:
   /// Neighbours in the file say the same; what is forgotten is written again.
   static constexpr size_t kKnown = 1 << 16;
-  struct Line {
-    std::string values;
-    uint64_t number = 0;
-  };
 
-  static size_t Slot(const std::string& values) {
-    uint64_t hash = 0xcbf29ce484222325;
-    for (const char c : values) hash = (hash ^ static_cast<uint8_t>(c)) * 0x100000001b3;
-    return static_cast<size_t>(hash >> 32) % kKnown;
-  }
-  double Real(const std::string& values, size_t column) const {
-    return TextColumn(type_, column * ScalarSize(type_))
-        .Real({reinterpret_cast<const uint8_t*>(values.data()), values.size()});
+  static std::string_view ViewOf(std::span<const uint8_t> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
 
   const char* keyword_;
-  ScalarType type_ = ScalarType::kFloat32;
-  size_t offset_ = 0, columns_ = 0;
+  std::vector<TextColumn> columns_;
+  size_t offset_ = 0, bytes_ = 0;  ///< of them, among the values of a corner
   DecimalWriter decimals_{ScalarType::kFloat32};
-  std::vector<Line> known_;
   uint64_t lines_ = 0;
+  std::vector<uint8_t> known_;                              ///< values of the last kKnown lines
+  std::unordered_map<std::string_view, uint64_t> numbers_;  ///< of these lines
 };
 
 template <class Attribute>
@@ -175,22 +173,24 @@ class ObjWriter final : public TextWriter {
   void WritePolygon(std::span<const uint64_t> corners, const FaceValues& values) override {
     WriteStatements(values.face);
     const size_t corner_bytes = shape().face_schema.CornerBytes();
-    std::vector<uint64_t> textures, normals;
+    texture_numbers_.clear();
+    normal_numbers_.clear();
     for (size_t i = 0; i < corners.size(); ++i) {
       const auto corner = values.corners.empty()
                               ? values.corners
                               : values.corners.subspan(i * corner_bytes, corner_bytes);
       const uint64_t of_vertex = corners[i] + 1;
-      textures.push_back(corner_texture_.any() ? corner_texture_.NumberOf(corner, faces())
-                                               : (texture_.empty() ? 0 : of_vertex));
-      normals.push_back(corner_normals_.any() ? corner_normals_.NumberOf(corner, faces())
-                                              : (normals_.empty() ? 0 : of_vertex));
+      texture_numbers_.push_back(corner_texture_.any() ? corner_texture_.NumberOf(corner, faces())
+                                                       : (texture_.empty() ? 0 : of_vertex));
+      normal_numbers_.push_back(corner_normals_.any() ? corner_normals_.NumberOf(corner, faces())
+                                                      : (normals_.empty() ? 0 : of_vertex));
     }
     faces().Add("f");
     for (size_t i = 0; i < corners.size(); ++i) {
       AddNumber(" ", corners[i] + 1);
-      if (textures[i] > 0) AddNumber("/", textures[i]);
-      if (normals[i] > 0) AddNumber(textures[i] > 0 ? "/" : "//", normals[i]);
+      const uint64_t texture = texture_numbers_[i], normal = normal_numbers_[i];
+      if (texture > 0) AddNumber("/", texture);
+      if (normal > 0) AddNumber(texture > 0 ? "/" : "//", normal);
     }
     faces().Add("\n");
   }
@@ -219,7 +219,8 @@ class ObjWriter final : public TextWriter {
   ObjRemarks remarks_;
   std::vector<TextColumn> colours_, normals_, texture_;  ///< of vertices
   CornerLines corner_texture_, corner_normals_;
-  std::vector<std::vector<TextColumn>> statements_;  ///< one column each, or none
+  std::vector<uint64_t> texture_numbers_, normal_numbers_;  ///< of the face at hand; 0: none
+  std::vector<std::vector<TextColumn>> statements_;         ///< one column each, or none
   ObjState state_{};
 };
 

@@ -75,6 +75,27 @@ TEST(ObjValues, ComeBackWithoutAnOrder) {
   }
 }
 
+TEST(ObjValues, StandOnceThoughManyFacesShareThem) {
+  constexpr int kSide = 40;
+  std::string vertices, textures, faces;
+  for (int v = 0; v < kSide * kSide; ++v) {
+    const std::string xy = std::to_string(v % kSide) + " " + std::to_string(v / kSide);
+    vertices.append("v ").append(xy).append(" 0\n");
+    textures.append("vt ").append(xy).append("\n");
+    if (v % kSide + 1 == kSide || v / kSide + 1 == kSide) continue;
+    faces.append("f");
+    for (const int corner : {v + 1, v + 2, v + kSide + 2, v + kSide + 1}) {
+      const std::string number = std::to_string(corner);
+      faces.append(" ").append(number).append("/").append(number);
+    }
+    faces.append("\n");
+  }
+  const std::string back = Back(vertices.append(textures).append(faces), ".obj");
+  size_t lines = 0;
+  for (size_t at = 0; (at = back.find("\nvt ", at)) != std::string::npos; ++at) ++lines;
+  EXPECT_EQ(lines, size_t{kSide * kSide});
+}
+
 TEST(ObjValues, StandInPlyWithTheirNames) {
   const TemporaryFolder folder;
   WriteBytes(folder.File("scan.obj"), std::string(kObj) + kObjFaces);

@@ -5,42 +5,13 @@
 #include <numeric>
 
 #include "engine/attributes/value_spans.h"
-#include "engine/codec/border_file.h"
 #include "engine/encode_estimate.h"
 #include "engine/exact_resolution.h"
 #include "engine/kept_attributes.h"
 #include "engine/rounded_source.h"
 #include "engine/weld/soup.h"
-#include "io/container/checksum.h"
-#include "io/container/writer.h"
-#include "parallel/memory_budget.h"
 
 namespace folprom {
-namespace {
-
-/// What the program itself, its libraries and the tables take.
-constexpr uint64_t kFixedBytes = uint64_t{96} << 20;
-
-uint64_t WorkingBytes(uint64_t memory_bytes) {
-  return memory_bytes > 2 * kFixedBytes ? memory_bytes - kFixedBytes : memory_bytes / 2;
-}
-
-/// Returns the size of each; *hash: of the file.
-std::vector<uint32_t> SpillSegments(const io::SpillDirectory& spill, const std::string& name,
-                                    const std::vector<std::vector<uint8_t>>& segments,
-                                    uint64_t* hash) {
-  std::vector<uint8_t> joined;
-  std::vector<uint32_t> sizes;
-  for (const auto& segment : segments) {
-    joined.insert(joined.end(), segment.begin(), segment.end());
-    sizes.push_back(static_cast<uint32_t>(segment.size()));
-  }
-  io::WriteSpillFile(spill, name, joined);
-  *hash = io::XxHash64(joined);
-  return sizes;
-}
-
-}  // namespace
 
 EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
                      parallel::Runner& runner, parallel::Progress& progress)
@@ -53,6 +24,12 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
   source_ = std::move(rounded.source);
   rounded_ = std::move(rounded.ranges);
   rounding_warnings_ = std::move(rounded.warnings);
+}
+
+uint64_t EncodeJob::WorkingBytes() const {
+  constexpr uint64_t kFixedBytes = uint64_t{96} << 20;  // the program, its libraries, the tables
+  const uint64_t memory = options_.limits.memory_bytes;
+  return memory > 2 * kFixedBytes ? memory - kFixedBytes : memory / 2;
 }
 
 void EncodeJob::Weld(const io::AtomicFile& out, const std::string& spill_name) {
@@ -73,9 +50,8 @@ void EncodeJob::Weld(const io::AtomicFile& out, const std::string& spill_name) {
 
 void EncodeJob::WeldScan(std::unique_ptr<io::SpillDirectory> spill) {
   if (source_->vertex_count() == 0) return;
-  auto welded =
-      std::make_unique<WeldedSource>(std::move(source_), WorkingBytes(options_.limits.memory_bytes),
-                                     std::move(spill), runner_, progress_);
+  auto welded = std::make_unique<WeldedSource>(std::move(source_), WorkingBytes(), std::move(spill),
+                                               runner_, progress_);
   welded_ = welded.get();
   source_ = std::move(welded);
 }
@@ -122,9 +98,8 @@ void EncodeJob::Partition() {
   settings.metric_b = options_.codec.metric_b;
   settings.normal_metric = options_.codec.subtree_normals;
   if (source_->vertex_count() > 0) {
-    scan_ = PartitionScan(*source_, resolution_.lattice, settings,
-                          WorkingBytes(options_.limits.memory_bytes), runner_, *spill_, progress_,
-                          KeepsAttributes(options_));
+    scan_ = PartitionScan(*source_, resolution_.lattice, settings, WorkingBytes(), runner_, *spill_,
+                          progress_, KeepsAttributes(options_));
   }
   source_->DropResident();
   outcomes_.resize(scan_ ? scan_->subtree_count() : 0);
@@ -186,109 +161,6 @@ double EncodeJob::TypicalEdge() const {
   return count == 0 ? 0 : static_cast<double>(length) / static_cast<double>(count);
 }
 
-void EncodeJob::EncodeSubtrees(bool keep_order, const char* stage) {
-  std::vector<size_t> order;
-  uint64_t done = 0;
-  first_vertex_.assign(1, 0);
-  for (size_t s = 0; s < outcomes_.size(); ++s) {
-    const uint32_t vertices = scan_->summary(s).vertices;
-    first_vertex_.push_back(first_vertex_.back() + vertices);
-    if (outcomes_[s].has_inner) {
-      done += vertices;
-    } else {
-      order.push_back(s);
-    }
-  }
-  // The largest first: the last tasks to end are then small. Results do not depend on it.
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return scan_->summary(a).vertices > scan_->summary(b).vertices;
-  });
-  if (keep_order) order_.emplace(*spill_, "order");
-  if (Sections().any()) curve_.emplace(*spill_, "curve");
-  progress_.StartStage(stage, source_->vertex_count(), "vertices");
-  progress_.Advance(done);
-  parallel::MemoryBudget budget(WorkingBytes(options_.limits.memory_bytes) * 3 / 4);
-  runner_.ForEach(order.size(), [&](size_t i) {
-    const SubtreeSummary& summary = scan_->summary(order[i]);
-    auto lease = budget.Acquire(EncodeSubtreeBytes(summary, parameters_));
-    progress_.ThrowIfCancelled();  // behind the wait: the job may have been cancelled meanwhile
-    EncodeOne(order[i], keep_order);
-  });
-}
-
-void EncodeJob::EncodeOne(size_t subtree, bool keep_order) {
-  const SubtreeSummary& summary = scan_->summary(subtree);
-  const auto number = static_cast<uint32_t>(subtree);
-  SubtreeChunk chunk = scan_->Load(subtree);
-  size_t seen = 0;
-  // Layer by layer, for a subtree takes seconds.
-  const auto advance = [&](const SubtreeCoder& coder) {
-    progress_.Advance(coder.positions().size() - seen);
-    seen = coder.positions().size();
-  };
-  EncodedSubtree encoded = EncodeSubtree(chunk, summary, number, parameters_, {}, advance);
-  SubtreeOutcome& outcome = outcomes_[subtree].inner;
-  outcome.inner_bytes =
-      SpillSegments(*spill_, InnerName(subtree), encoded.segments, &outcome.inner_hash);
-  outcome.distance = std::move(encoded.distance);
-  outcome.vertices = std::move(encoded.vertices);
-  outcome.faces = std::move(encoded.faces);
-  outcome.active = std::move(encoded.active);
-  outcome.digest = encoded.digest;
-  outcome.meters = encoded.meters;
-  if (!summary.neighbours.empty()) {
-    outcome.border_hash = SpillBorder(*spill_, number, encoded.border, encoded.border_vertices);
-  }
-  if (keep_order) {
-    order_->WriteRecords<uint32_t>(first_vertex_[subtree], encoded.final_vertices);
-  }
-  if (curve_) {
-    curve_->WriteRecords<uint32_t>(first_vertex_[subtree],
-                                   CurvePlaces(chunk.positions, encoded.final_vertices));
-  }
-  if (journal_) journal_->Add(number, outcome);
-  outcomes_[subtree].has_inner = true;
-}
-
-std::vector<uint32_t> EncodeJob::SeamMembers(size_t owner) const {
-  std::vector<uint32_t> members;
-  for (uint32_t neighbour : scan_->summary(owner).neighbours) {
-    if (neighbour < owner) members.push_back(neighbour);
-  }
-  return members;
-}
-
-void EncodeJob::EncodeSeams() {
-  progress_.StartStage("seams", outcomes_.size());
-  parallel::MemoryBudget budget(WorkingBytes(options_.limits.memory_bytes) * 3 / 4);
-  runner_.ForEach(outcomes_.size(), [&](size_t owner) {
-    if (!outcomes_[owner].has_seam && !SeamMembers(owner).empty()) {
-      std::vector<uint32_t> members = SeamMembers(owner);
-      members.push_back(static_cast<uint32_t>(owner));
-      auto lease = budget.Acquire(
-          EncodeSeamBytes(BorderBytes(*spill_, members), scan_->summary(owner).cross_faces));
-      progress_.ThrowIfCancelled();
-      EncodeOneSeam(owner, members);
-    }
-    progress_.Advance(1);
-  });
-}
-
-void EncodeJob::EncodeOneSeam(size_t owner, const std::vector<uint32_t>& members) {
-  std::vector<BorderFile> borders;
-  for (uint32_t member : members) borders.push_back(LoadBorder(*spill_, member));
-  SubtreeChunk chunk = scan_->Load(owner);
-  EncodedSeam encoded = EncodeSeam(members, borders, chunk.cross_faces, parameters_);
-  SeamOutcome& outcome = outcomes_[owner].seam;
-  outcome.bytes = SpillSegments(*spill_, SeamName(owner), encoded.segments, &outcome.hash);
-  outcome.faces = std::move(encoded.faces);
-  outcome.active = std::move(encoded.active);
-  outcome.face_digest = encoded.digest.faces;
-  outcome.meter = encoded.meter;
-  if (journal_) journal_->Add(static_cast<uint32_t>(owner), outcome);
-  outcomes_[owner].has_seam = true;
-}
-
 SectionChoice EncodeJob::Sections() const {
   SectionChoice choice;
   choice.order = options_.keep_order;
@@ -309,138 +181,6 @@ void EncodeJob::EncodeSections() {
   }
   sections_ = folprom::EncodeSections(Sections(), *source_, *scan_, curve_->Map(), *spill_,
                                       options_.limits.memory_bytes, progress_);
-}
-
-void EncodeJob::DropEmptyLayers() {
-  // A layer in which nothing changes in any subtree can go where the schedule does not count on it:
-  // the last split layers but one, and the first refinements.
-  uint32_t split = parameters_.schedule.split_layers(), all = parameters_.schedule.layers();
-  auto active = [&](uint32_t layer) {
-    return std::any_of(outcomes_.begin(), outcomes_.end(),
-                       [&](const Outcome& outcome) { return outcome.IsActive(layer); });
-  };
-  // The last split layer takes its precision from the layer before it.
-  const bool lattice = options_.codec.offsets == Offsets::kLattice;
-  const auto shift_after = [&](uint32_t layers) {
-    return lattice && layers > 0 ? parameters_.schedule.LatticeShift(layers - 1) : 0;
-  };
-  uint32_t kept_split = split - 1;
-  while (kept_split > 0 && !active(kept_split - 1) &&
-         shift_after(kept_split - 1) == shift_after(split - 1)) {
-    --kept_split;
-  }
-  uint32_t first_refine = split;
-  while (first_refine < all && !active(first_refine)) ++first_refine;
-  kept_layers_.clear();
-  for (uint32_t layer = 0; layer < kept_split; ++layer) kept_layers_.push_back(layer);
-  kept_layers_.push_back(split - 1);
-  for (uint32_t layer = first_refine; layer < all; ++layer) kept_layers_.push_back(layer);
-  parameters_.schedule =
-      LayerSchedule(parameters_.extent, options_.codec.steps_per_octave,
-                    options_.codec.rounds_per_step, kept_split + 1, all - first_refine,
-                    parameters_.schedule.first_steps(), parameters_.schedule.parted());
-}
-
-io::FileTable EncodeJob::MakeTable() {
-  DropEmptyLayers();
-  io::FileTable table;
-  table.vertices = source_->vertex_count();
-  table.faces = source_->triangle_count();
-  table.is_soup = is_soup_;
-  table.coordinate_type = static_cast<uint8_t>(OutputType(source_->coordinate_type()));
-  table.origin = resolution_.lattice.origin;
-  table.unit = resolution_.lattice.unit;
-  table.extent = resolution_.lattice.extent;
-  table.tolerance = resolution_.tolerance;
-  table.codec = WriteParameters(parameters_);
-  if (KeepsAttributes(options_)) table.schema = source_->vertex_schema();
-  if (options_.attributes) table.remarks = source_->remarks();
-  if (Sections().face_values) table.face_schema = source_->face_schema();
-  table.face_ranges = sections_.face_ranges;
-  for (const ValueSpan& span : parameters_.attributes) {
-    table.attribute_ranges.push_back({span.least, span.most, span.step, span.first});
-  }
-  costs_ = {};
-  costs_.attributes.resize(parameters_.attributes.size(), 0);
-  for (size_t s = 0; s < outcomes_.size(); ++s) {
-    const Outcome& outcome = outcomes_[s];
-    const SubtreeSummary& summary = scan_->summary(s);
-    io::SubtreeRecord record;
-    record.vertices = summary.vertices;
-    record.box_lo = {summary.box_lo.x, summary.box_lo.y, summary.box_lo.z};
-    record.box_hi = {summary.box_hi.x, summary.box_hi.y, summary.box_hi.z};
-    record.lower_neighbours = SeamMembers(s);
-    table.subtrees.push_back(std::move(record));
-    table.digest.vertices += outcome.inner.digest.vertices;
-    table.digest.faces += outcome.inner.digest.faces + outcome.seam.face_digest;
-    costs_ += outcome.inner.meters;
-    costs_.seams += outcome.seam.meter;
-  }
-  table.kind_bits = {costs_.split / 1024,
-                     (costs_.root + costs_.offsets.Sum()) / 1024,
-                     (costs_.refinement + costs_.rests) / 1024,
-                     costs_.connectivity.Sum() / 1024,
-                     costs_.exceptions / 1024,
-                     costs_.seams / 1024};
-  for (uint64_t cost : costs_.attributes) table.attribute_bits.push_back(cost / 1024);
-  table.sections = sections_.records;
-  table.polygons = sections_.polygons;
-  table.largest_face = sections_.largest_face;
-  for (uint32_t layer : kept_layers_) {
-    io::LayerRecord record;
-    double distance = 0;
-    for (const Outcome& outcome : outcomes_) {
-      distance = std::max(distance, outcome.inner.distance[layer]);
-      record.vertices += outcome.inner.vertices[layer];
-      record.faces += outcome.inner.faces[layer];
-      if (outcome.has_seam) record.faces += outcome.seam.faces[layer];
-      table.segment_bytes.push_back(outcome.inner.inner_bytes[layer]);
-      table.segment_bytes.push_back(outcome.has_seam ? outcome.seam.bytes[layer] : 0);
-    }
-    // Half a lattice unit per axis for the rounding of the original, or a
-    // whole one where rests follow in the last layer.
-    double rounding = parameters_.exact ? 2 : 1;
-    double bound = outcomes_.empty() ? 0 : (distance + rounding) * resolution_.lattice.unit;
-    // Vertices that stand for others may be drawn off the mesh.
-    if (parameters_.fits_lods() && record.vertices < table.vertices) bound /= 1 - kShiftPart;
-    record.error_bound = io::NextErrorBound(bound);
-    if (parameters_.exact && layer == kept_layers_.back()) record.error_bound = 0;
-    table.layers.push_back(record);
-  }
-  return table;
-}
-
-uint64_t EncodeJob::WriteFile(const io::FileTable& table, io::AtomicFile& out) {
-  // Positions of the kept layers inside the spilled segments of a subtree.
-  auto begins = [](const std::vector<uint32_t>& sizes) {
-    std::vector<uint64_t> begin(1, 0);
-    for (uint32_t size : sizes) begin.push_back(begin.back() + size);
-    return begin;
-  };
-  progress_.StartStage("write", table.layers.size());
-  io::MappedFile mapped;
-  size_t last_layer = 0;
-  return io::WriteContainer(
-      table,
-      [&](size_t layer, size_t subtree, io::SegmentPart part) -> std::span<const uint8_t> {
-        if (layer != last_layer) progress_.Advance(layer - last_layer);
-        last_layer = layer;
-        bool inner = part == io::SegmentPart::kInner;
-        const Outcome& outcome = outcomes_[subtree];
-        if (!inner && !outcome.has_seam) return {};
-        const auto& sizes = inner ? outcome.inner.inner_bytes : outcome.seam.bytes;
-        uint32_t stored = kept_layers_[layer];
-        if (sizes[stored] == 0) return {};
-        std::string name = inner ? InnerName(subtree) : SeamName(subtree);
-        mapped = io::MapSpillFile(spill_->File(name));
-        return mapped.bytes().subspan(begins(sizes)[stored], sizes[stored]);
-      },
-      out,
-      [&](io::SectionKind kind) {
-        const auto& section = table.Section(kind);
-        mapped = section->bytes == 0 ? io::MappedFile() : SectionFile(*spill_, kind);
-        return mapped.bytes();
-      });
 }
 
 std::vector<std::string> EncodeJob::Warnings() const {

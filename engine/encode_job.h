@@ -102,6 +102,8 @@ class EncodeJob {
       return inner.active[layer] || (!seam.active.empty() && seam.active[layer]);
     }
   };
+  /// Of the memory limit, what the stages may use.
+  uint64_t WorkingBytes() const;
   void EncodeOne(size_t subtree, bool keep_order);
   void EncodeOneSeam(size_t owner, const std::vector<uint32_t>& members);
   /// Everything but the vertices that the partition decides.
@@ -114,6 +116,11 @@ class EncodeJob {
   /// Mean edge length of a sample of every subtree, lattice units; 0 without faces.
   double TypicalEdge() const;
   void DropEmptyLayers();
+  // Parts of the table.
+  void DescribeScan(io::FileTable* table) const;
+  void AddSubtrees(io::FileTable* table);
+  void AddCosts(io::FileTable* table) const;
+  void AddLayer(uint32_t layer, io::FileTable* table) const;
   std::vector<uint32_t> SeamMembers(size_t owner) const;
 
   EncodeOptions options_;

@@ -176,7 +176,7 @@ void EncodeJob::EncodeSections() {
   if (!Sections().any()) return;
   if (!scan_) {
     // Of no vertex at all there is nothing to tell.
-    if (Sections().order) sections_.records[static_cast<size_t>(io::SectionKind::kOrder)].emplace();
+    if (Sections().order) sections_.Section(io::SectionKind::kOrder).emplace();
     return;
   }
   sections_ = folprom::EncodeSections(Sections(), *source_, *scan_, curve_->Map(), *spill_,

@@ -52,14 +52,14 @@ class SectionEncoder {
     if (choice_.face_values) {
       result.face_ranges = ranges_;
       values_.emplace(mesh, source_.face_schema(), ranges_, space_);
-      result.records[2].emplace();
     }
-    value_record_ = &result.records[2];
-    if (choice_.order) result.records[0] = EncodeOrder(mesh);
-    if (choice_.polygons) result.records[1] = EncodePolygons(mesh, &result);
+    if (choice_.order) result.Section(io::SectionKind::kOrder) = EncodeOrder(mesh);
+    if (choice_.polygons) {
+      result.Section(io::SectionKind::kPolygons) = EncodePolygons(mesh, &result);
+    }
     if (choice_.face_values) {
       EncodeFaceValues(mesh);
-      result.records[2]->digest = DigestOfValues();
+      result.Section(io::SectionKind::kFaceValues) = value_record_;
     }
     streams_.Finish();
     return result;
@@ -163,42 +163,26 @@ class SectionEncoder {
     return record;
   }
 
+  /// By the places of its vertices where the order is kept, else by their numbers.
+  Face DigestedFace(size_t i) const {
+    Face face = faces_[i];
+    if (choice_.order) {
+      for (uint32_t& corner : face) corner = place_of_[corner];
+    }
+    return face;
+  }
+
   /// In the scan's order where it is kept; else as a set.
   io::SectionRecord EncodePolygons(const OrderMesh& mesh, EncodedSections* result) {
     io::SectionRecord record;
-    BitEncoder bits;
     if (choice_.order) {
-      PolygonJoins coder;
-      for (size_t begin = 0; begin < faces_.size(); begin += kOrderBlock) {
-        const size_t count = std::min<size_t>(kOrderBlock, faces_.size() - begin);
-        coder.Code(bits, faces_.subspan(begin, count), joins_.subspan(begin, count));
-        AppendBlock(io::SectionKind::kPolygons, bits.TakeSegment(), &record);
-        space_.Stepped(count);
-      }
+      EncodeJoins(&record);
     } else {
-      PolygonTruth truth(mesh, faces_, joins_, space_);
-      PolygonSet coder(mesh, &truth, space_);
-      std::vector<Face> triangles;
-      std::vector<uint8_t> joins;
-      std::vector<PolygonTruth::Fan> fans;
-      while (!coder.AtEnd()) {
-        progress_.ThrowIfCancelled();
-        triangles.clear();
-        joins.clear();
-        fans.clear();
-        coder.Code(bits, kOrderBlock, &triangles, &joins, &fans);
-        AppendBlock(io::SectionKind::kPolygons, bits.TakeSegment(), &record);
-        if (values_) CodeRows(triangles, joins, rows_.OfPolygons(triangles, joins, fans));
-        progress_.Advance(triangles.size());
-      }
+      EncodePolygonSet(mesh, &record);
     }
     PolygonDigest digest;
     for (size_t i = 0; i < faces_.size(); ++i) {
-      Face face = faces_[i];
-      if (choice_.order) {
-        for (uint32_t& corner : face) corner = place_of_[corner];
-      }
-      digest.Add(face, joins_[i] != 0);
+      digest.Add(DigestedFace(i), joins_[i] != 0);
       space_.Stepped(1);
     }
     digest.Close();
@@ -208,15 +192,46 @@ class SectionEncoder {
     return record;
   }
 
+  void EncodeJoins(io::SectionRecord* record) {
+    BitEncoder bits;
+    PolygonJoins coder;
+    for (size_t begin = 0; begin < faces_.size(); begin += kOrderBlock) {
+      const size_t count = std::min<size_t>(kOrderBlock, faces_.size() - begin);
+      coder.Code(bits, faces_.subspan(begin, count), joins_.subspan(begin, count));
+      AppendBlock(io::SectionKind::kPolygons, bits.TakeSegment(), record);
+      space_.Stepped(count);
+    }
+  }
+
+  /// With the values of their faces and corners.
+  void EncodePolygonSet(const OrderMesh& mesh, io::SectionRecord* record) {
+    BitEncoder bits;
+    PolygonTruth truth(mesh, faces_, joins_, space_);
+    PolygonSet coder(mesh, &truth, space_);
+    std::vector<Face> triangles;
+    std::vector<uint8_t> joins;
+    std::vector<PolygonTruth::Fan> fans;
+    while (!coder.AtEnd()) {
+      progress_.ThrowIfCancelled();
+      triangles.clear();
+      joins.clear();
+      fans.clear();
+      coder.Code(bits, kOrderBlock, &triangles, &joins, &fans);
+      AppendBlock(io::SectionKind::kPolygons, bits.TakeSegment(), record);
+      if (values_) CodeRows(triangles, joins, rows_.OfPolygons(triangles, joins, fans));
+      progress_.Advance(triangles.size());
+    }
+  }
+
   /// A block of the section of face values.
   void CodeRows(std::span<const Face> triangles, std::span<const uint8_t> joins,
                 std::vector<uint8_t> rows) {
     BitEncoder bits;
     values_->Code(bits, triangles, joins, rows);
-    AppendBlock(io::SectionKind::kFaceValues, bits.TakeSegment(), &value_record_->value());
+    AppendBlock(io::SectionKind::kFaceValues, bits.TakeSegment(), &value_record_);
   }
 
-  /// Where polygons are no set, which codes their values with them.
+  /// But those of a set of polygons, which are coded with it.
   void EncodeFaceValues(const OrderMesh& mesh) {
     if (choice_.order) {
       for (size_t begin = 0; begin < faces_.size(); begin += kOrderBlock) {
@@ -235,20 +250,13 @@ class SectionEncoder {
         CodeRows(mesh.faces.subspan(begin, count), {}, rows_.OfNumbers(truth, begin, count));
       }
     }
-  }
-
-  uint64_t DigestOfValues() {
     FaceValueDigest digest(source_.face_schema());
     for (size_t i = 0; i < faces_.size(); ++i) {
-      Face face = faces_[i];
-      if (choice_.order) {
-        for (uint32_t& corner : face) corner = place_of_[corner];
-      }
-      digest.Add(face, !joins_.empty() && joins_[i] != 0, rows_.Of(i));
+      digest.Add(DigestedFace(i), !joins_.empty() && joins_[i] != 0, rows_.Of(i));
       space_.Stepped(1);
     }
     digest.Close();
-    return digest.digest();
+    value_record_.digest = digest.digest();
   }
 
   const SectionChoice choice_;
@@ -267,7 +275,7 @@ class SectionEncoder {
   FaceRows rows_;                 ///< of these, where they have values
   std::vector<io::AttributeRange> ranges_;
   std::optional<FaceValueCoder> values_;
-  std::optional<io::SectionRecord>* value_record_ = nullptr;
+  io::SectionRecord value_record_;  ///< of what values_ coded
 };
 
 }  // namespace

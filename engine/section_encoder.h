@@ -28,6 +28,10 @@ struct SectionChoice {
 };
 
 struct EncodedSections {
+  std::optional<io::SectionRecord>& Section(io::SectionKind kind) {
+    return records[static_cast<size_t>(kind)];
+  }
+
   std::array<std::optional<io::SectionRecord>, io::kSectionKinds> records;
   uint64_t polygons = 0;                        ///< faces of the scan
   uint64_t largest_face = 0;                    ///< corners

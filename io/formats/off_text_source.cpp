@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +12,7 @@
 #include "io/formats/polygon_fan.h"
 #include "io/formats/resident_window.h"
 #include "io/formats/text_cursor.h"
+#include "io/formats/text_number.h"
 #include "io/result_of.h"
 
 namespace folprom::io {
@@ -20,25 +24,33 @@ struct OffFaceBlock {
   uint64_t triangles = 0;
 };
 
-/// Of a line. A colour, with what a vertex may have beside it, has no more.
-constexpr size_t kMostWords = 16;
+/// The words that are left of a line. A colour, with what a vertex may have beside it, has no more
+/// than are kept.
+class LineWords {
+ public:
+  static constexpr size_t kMost = 16;
 
-/// The words behind the first `skipped` ones, of which at most kMostWords are kept; *count: of all.
-std::vector<std::string_view> WordsBehind(uint64_t skipped, TextCursor& cursor, uint64_t* count) {
-  std::vector<std::string_view> words;
-  *count = 0;
-  for (std::string_view word; !(word = cursor.Word()).empty(); ++*count) {
-    if (*count >= skipped && words.size() < kMostWords) words.push_back(word);
+  /// Takes all of them, and keeps those behind the first `skipped` ones.
+  LineWords(uint64_t skipped, TextCursor& cursor) {
+    for (std::string_view word; !(word = cursor.Word()).empty(); ++count_) {
+      if (count_ >= skipped && kept_ < kMost) words_[kept_++] = word;
+    }
   }
-  return words;
-}
+  /// Of all.
+  uint64_t count() const { return count_; }
+  std::span<const std::string_view> kept() const { return std::span(words_).first(kept_); }
+  /// The kept ones, which were found to be numbers.
+  std::span<const double> Reals(std::array<double, kMost>* to) const {
+    to->fill(0);
+    for (size_t i = 0; i < kept_; ++i) ParseReal(words_[i], &(*to)[i]);
+    return std::span(*to).first(kept_);
+  }
 
-/// Of the words that were found to be numbers.
-std::vector<double> Reals(std::span<const std::string_view> words) {
-  std::vector<double> reals;
-  for (const std::string_view word : words) ParseReal(word, &reals.emplace_back());
-  return reals;
-}
+ private:
+  std::array<std::string_view, kMost> words_;
+  size_t kept_ = 0;
+  uint64_t count_ = 0;
+};
 
 /// A line a vertex, then a line a face, and nothing more.
 class OffIndexer {
@@ -94,8 +106,8 @@ class OffIndexer {
     NextLine("vertex", vertex, header_.vertices);
     if (vertex % kBlockVertices == 0) vertices_.push_back(cursor_.position());
     census_.AddPosition(cursor_);
-    uint64_t words = 0;
-    const std::vector<std::string_view> values = WordsBehind(0, cursor_, &words);
+    const LineWords line(0, cursor_);
+    const uint64_t words = line.count();
     const uint64_t others = (header_.has_normals ? 3 : 0) + (header_.has_texture ? 2 : 0);
     // Many programs write colours without the C of the keyword.
     const bool has_colour = words == others + 3 || words == others + 4;
@@ -103,19 +115,18 @@ class OffIndexer {
       cursor_.Fail("a vertex has " + std::to_string(3 + words) + " values");
     }
     const size_t normals = header_.has_normals ? 3 : 0, colours = has_colour ? words - others : 0;
-    vertex_colours_.Add(std::span(values).subspan(normals, colours), cursor_);
-    for (size_t i = 0; i < values.size(); ++i) {
-      if (i < normals || i >= normals + colours) others_.Add(values[i], cursor_);
+    vertex_colours_.Add(line.kept().subspan(normals, colours), cursor_);
+    for (size_t i = 0; i < line.kept().size(); ++i) {
+      if (i < normals || i >= normals + colours) others_.Add(line.kept()[i], cursor_);
     }
   }
 
   void WalkFace(uint64_t face) {
     NextLine("face", face, header_.faces);
-    const FilePosition line = cursor_.position();
+    const FilePosition position = cursor_.position();
     const int64_t corners = cursor_.Integer("the number of corners");
-    uint64_t words = 0;
-    const std::vector<std::string_view> values =
-        WordsBehind(static_cast<uint64_t>(std::max<int64_t>(corners, 0)), cursor_, &words);
+    const LineWords line(static_cast<uint64_t>(std::max<int64_t>(corners, 0)), cursor_);
+    const uint64_t words = line.count();
     if (corners < 0 || static_cast<uint64_t>(corners) > words) {
       cursor_.Fail("a face of " + std::to_string(corners) + " corners has " +
                    std::to_string(words) + " values behind their number");
@@ -128,9 +139,9 @@ class OffIndexer {
     }
     const uint64_t triangles = FanTriangles(static_cast<uint64_t>(corners), index_.notes);
     if (triangles == 0) return;
-    face_colours_.Add(values, cursor_);
+    face_colours_.Add(line.kept(), cursor_);
     if (faces_.empty() || faces_.back().triangles + triangles > kBlockTriangles) {
-      faces_.push_back({line, 0});
+      faces_.push_back({position, 0});
     }
     faces_.back().triangles += triangles;
     index_.triangles += triangles;
@@ -192,13 +203,13 @@ class TextOffSource final : public IndexedSource {
     return ResultOf([&] {
       TextCursor cursor(file(), faces_[block].position);
       const size_t bytes = faces_[block].triangles * index_.face_schema.RowBytes();
+      std::array<double, LineWords::kMost> reals;
       while (rows->size() < bytes) {
         if (!cursor.NextWordLine()) cursor.Fail("the file has changed while it was read");
         const int64_t corners = cursor.Integer("the number of corners");
         if (corners >= 3) {
-          uint64_t words = 0;
-          const auto values = WordsBehind(static_cast<uint64_t>(corners), cursor, &words);
-          AddOffRows(index_.face_schema, Reals(values), static_cast<uint64_t>(corners) - 2, rows);
+          const auto count = static_cast<uint64_t>(corners);
+          AddOffRows(index_.face_schema, LineWords(count, cursor).Reals(&reals), count - 2, rows);
         }
         cursor.SkipSingleLine();
       }
@@ -208,21 +219,20 @@ class TextOffSource final : public IndexedSource {
  private:
   /// The attributes of a line, stored; where they go on.
   uint8_t* ReadVertex(TextCursor& cursor, uint8_t* to) const {
-    uint64_t words = 0;
-    const std::vector<double> values = Reals(WordsBehind(3, cursor, &words));
+    std::array<double, LineWords::kMost> reals;
+    const std::span<const double> values = LineWords(3, cursor).Reals(&reals);
     const size_t normals = has_normals_ ? kOffNormals.size() : 0;
     if (values.size() < normals + texture_) cursor.Fail("the file has changed while it was read");
-    const auto all = std::span<const double>(values);
     const size_t colours =
         keeps_colours_ ? index_.schema.attributes.size() - normals - texture_ : 0;
     const auto type = [&](size_t column) { return index_.schema.attributes[column].type; };
-    if (normals > 0) to = StoreOffValues(all.first(normals), type(0), normals, to);
+    if (normals > 0) to = StoreOffValues(values.first(normals), type(0), normals, to);
     if (colours > 0) {
-      const auto some = all.subspan(normals, values.size() - normals - texture_);
+      const auto some = values.subspan(normals, values.size() - normals - texture_);
       to = StoreOffValues(some, type(normals), colours, to);
     }
     if (texture_ > 0) {
-      to = StoreOffValues(all.last(texture_), type(normals + colours), texture_, to);
+      to = StoreOffValues(values.last(texture_), type(normals + colours), texture_, to);
     }
     return to;
   }

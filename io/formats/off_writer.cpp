@@ -58,13 +58,18 @@ class OffWriter final : public TextWriter {
     return lost;
   }
 
+  static void Add(OutputBuffer& out, std::string_view text) {
+    out.Add(" ");
+    out.Add(text);
+  }
+
   /// Whole numbers are of 0 .. 255, so a part of 1 must not look like one.
-  static std::string ColourText(TextColumn& column, std::span<const uint8_t> values) {
-    std::string text(column.Text(values));
-    if (IsFloat(column.type()) && text.find_first_not_of("-0123456789") == std::string::npos) {
-      text += ".0";
+  static void AddColour(OutputBuffer& out, TextColumn& column, std::span<const uint8_t> values) {
+    const std::string_view text = column.Text(values);
+    Add(out, text);
+    if (IsFloat(column.type()) && text.find_first_not_of("-0123456789") == std::string_view::npos) {
+      out.Add(".0");
     }
-    return text;
   }
 
   void WriteVertices(std::span<const double> xyz, std::span<const uint8_t> attributes) override {
@@ -72,15 +77,10 @@ class OffWriter final : public TextWriter {
     for (size_t i = 0; i < xyz.size(); i += 3, attributes = attributes.subspan(stride)) {
       AddPosition(xyz.subspan(i, 3));
       for (TextColumn& column : normals_) Add(vertices(), column.Text(attributes));
-      for (TextColumn& column : colours_) Add(vertices(), ColourText(column, attributes));
+      for (TextColumn& column : colours_) AddColour(vertices(), column, attributes);
       for (TextColumn& column : texture_) Add(vertices(), column.Text(attributes));
       vertices().Add("\n");
     }
-  }
-
-  static void Add(OutputBuffer& out, std::string_view text) {
-    out.Add(" ");
-    out.Add(text);
   }
 
   void WritePolygon(std::span<const uint64_t> corners, const FaceValues& values) override {
@@ -90,7 +90,7 @@ class OffWriter final : public TextWriter {
     if (!face_count_.empty()) {
       colours = std::min(colours, static_cast<size_t>(face_count_[0].Real(values.face)));
     }
-    for (size_t i = 0; i < colours; ++i) Add(faces(), ColourText(face_colours_[i], values.face));
+    for (size_t i = 0; i < colours; ++i) AddColour(faces(), face_colours_[i], values.face);
     for (TextColumn& column : face_index_) Add(faces(), column.Text(values.face));
     faces().Add("\n");
   }

@@ -1,18 +1,17 @@
 #include "io/formats/ply_source.h"
 
 #include <algorithm>
-#include <concepts>
-#include <cstddef>
 #include <utility>
 
 #include "io/formats/ply_ascii_cursor.h"
 #include "io/formats/ply_binary_cursor.h"
 #include "io/formats/ply_blocks.h"
+#include "io/formats/ply_face_rows.h"
 #include "io/formats/ply_header.h"
 #include "io/formats/ply_layout.h"
 #include "io/formats/ply_skip.h"
 #include "io/formats/ply_triangles.h"
-#include "io/formats/store_bytes.h"
+#include "io/formats/ply_value.h"
 #include "io/result_of.h"
 
 namespace folprom::io {
@@ -55,21 +54,6 @@ void ReadFixedVertices(const uint8_t* records, const PlyElementPlan& plan, uint6
       }
     });
   }
-}
-
-/// Values as bytes, lowest first. Real widens a float with its bits, and checks the range of an
-/// integer, which a double holds.
-template <class Cursor>
-uint8_t* ReadValue(Cursor& cursor, ScalarType type, uint8_t* to) {
-  return WithScalarType(type, [&]<class T>(T) {
-    if constexpr (std::same_as<T, float>) {
-      return StoreLittleEndian(NarrowToFloatBits(cursor.Real(ScalarType::kFloat32)), to);
-    } else if constexpr (std::same_as<T, double>) {
-      return StoreLittleEndian(cursor.Real(ScalarType::kFloat64), to);
-    } else {
-      return StoreLittleEndian(static_cast<T>(cursor.Real(type)), to);
-    }
-  });
 }
 
 template <class Cursor>
@@ -177,99 +161,6 @@ class TriangleReader {
   std::vector<uint8_t>* joins_;  ///< may be null
 };
 
-/// The rows of whole faces: FaceSchema.
-template <class Cursor>
-class FaceRowReader {
- public:
-  FaceRowReader(Cursor& cursor, const PlyElementPlan& plan, const FaceSchema& schema)
-      : cursor_(cursor),
-        plan_(plan),
-        schema_(schema),
-        face_bytes_(schema.FaceBytes()),
-        corner_bytes_(schema.CornerBytes()) {}
-
-  /// From the record on, until there are so many triangles.
-  void Read(uint64_t record, uint64_t triangles, std::vector<uint8_t>* rows) {
-    const size_t bytes = triangles * schema_.RowBytes();
-    rows->clear();
-    rows->reserve(bytes);
-    for (; rows->size() < bytes; ++record) {
-      cursor_.BeginRecord(record);
-      const uint64_t corners = ReadRecord();
-      cursor_.EndRecord();
-      AddRows(corners, rows);
-    }
-  }
-
- private:
-  /// Returns the number of corners.
-  uint64_t ReadRecord() {
-    const std::vector<PlyProperty>& properties = plan_.element->properties;
-    uint64_t corners = 0;
-    size_t next = 0, of_face = 0, of_corner = 0;
-    face_.resize(face_bytes_);
-    for (size_t p = 0; p < properties.size(); ++p) {
-      const PlyProperty& property = properties[p];
-      if (p == plan_.index_list) {
-        corners = cursor_.Count(property.count_type);
-        cursor_.SkipItems(property.type, corners);
-      } else if (next == plan_.attributes.size() || plan_.attributes[next] != p) {
-        SkipProperty(property, cursor_);
-      } else if (const FaceAttribute& attribute = schema_.attributes[next++];
-                 attribute.per_corner == 0) {
-        ReadValue(cursor_, property.type, &face_[of_face]);
-        of_face += attribute.bytes();
-      } else {
-        ReadCorners(property, attribute, of_corner);
-        of_corner += attribute.bytes();
-      }
-    }
-    return corners;
-  }
-
-  /// Of a face of less than three corners the list may have any length.
-  void ReadCorners(const PlyProperty& property, const FaceAttribute& attribute, size_t at) {
-    const uint64_t items = cursor_.Count(property.count_type);
-    const uint64_t corners = items / attribute.per_corner;
-    if (corners < 3 || corners > kBlockTriangles + 2) {
-      cursor_.SkipItems(property.type, items);
-      return;
-    }
-    if (corners_.size() < corners * corner_bytes_) corners_.resize(corners * corner_bytes_);
-    for (uint64_t corner = 0; corner < corners; ++corner) {
-      uint8_t* to = &corners_[corner * corner_bytes_ + at];
-      for (uint32_t i = 0; i < attribute.per_corner; ++i) {
-        to = ReadValue(cursor_, property.type, to);
-      }
-    }
-  }
-
-  void AddRows(uint64_t corners, std::vector<uint8_t>* rows) const {
-    // The walk saw that lists are long enough, unless the file has changed since.
-    if (corner_bytes_ > 0 && corners >= 3 && corners_.size() < corners * corner_bytes_) {
-      throw cursor_.place().Fault("the file has changed while it was read");
-    }
-    const auto add_corner = [&](uint64_t corner) {
-      const auto from = corners_.begin() + static_cast<std::ptrdiff_t>(corner * corner_bytes_);
-      if (corner_bytes_ > 0) {
-        rows->insert(rows->end(), from, from + static_cast<std::ptrdiff_t>(corner_bytes_));
-      }
-    };
-    for (uint64_t corner = 2; corner < corners; ++corner) {
-      rows->insert(rows->end(), face_.begin(), face_.end());
-      add_corner(0);
-      add_corner(corner - 1);
-      add_corner(corner);
-    }
-  }
-
-  Cursor& cursor_;
-  const PlyElementPlan& plan_;
-  const FaceSchema& schema_;
-  size_t face_bytes_, corner_bytes_;
-  std::vector<uint8_t> face_, corners_;  ///< of the record
-};
-
 class PlySource final : public MeshSource {
  public:
   PlySource(MappedFile file, const Limits& limits)
@@ -342,7 +233,7 @@ class PlySource final : public MeshSource {
     const PlyTriangleBlock& where = blocks_.triangles[block];
     const PlyElementPlan& plan = layout_.elements[where.plan];
     return WithCursor(plan, where.position, [&]<class Cursor>(Cursor& cursor) {
-      FaceRowReader<Cursor>(cursor, plan, layout_.face_schema)
+      PlyFaceRows<Cursor>(cursor, plan, layout_.face_schema)
           .Read(where.record, where.triangles, rows);
     });
   }

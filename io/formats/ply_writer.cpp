@@ -127,6 +127,7 @@ class PlyWriter final : public CountedWriter {
 
   void WritePolygon(std::span<const uint64_t> corners, const FaceValues& values) override {
     const FaceSchema& schema = shape().face_schema;
+    const size_t corner_bytes = schema.CornerBytes();
     size_t of_face = 0, of_corner = 0;
     for (size_t i = 0; i <= schema.attributes.size(); ++i) {
       if (i == schema.before_indices) WriteIndices(corners);
@@ -140,10 +141,9 @@ class PlyWriter final : public CountedWriter {
       }
       WriteCount(corners.size() * attribute.per_corner,
                  HasLongLists(shape(), attribute.per_corner));
-      for (size_t corner = 0; corner < corners.size(); ++corner) {
-        std::ranges::copy(
-            values.corners.subspan(corner * schema.CornerBytes() + of_corner, attribute.bytes()),
-            faces_.Extend(attribute.bytes()));
+      for (size_t at = of_corner; at < values.corners.size(); at += corner_bytes) {
+        std::ranges::copy(values.corners.subspan(at, attribute.bytes()),
+                          faces_.Extend(attribute.bytes()));
       }
       of_corner += attribute.bytes();
     }

@@ -66,38 +66,6 @@ const Uncoded* FindUncoded(std::string_view keyword) {
   return found == std::end(kUncoded) ? nullptr : found;
 }
 
-/// The numbers of one "vt" or "vn" after another.
-class ListWriter {
- public:
-  ListWriter() = default;
-
-  void Add(const std::array<double, 3>& values, size_t columns, const MappedFile& scan) {
-    if (values_.file == nullptr) {
-      values_.file = std::make_unique<ScratchFile>(TemporaryFolder(), scan.path());
-    }
-    ++values_.count;
-    values_.columns = std::max(values_.columns, columns);
-    const auto* bytes = reinterpret_cast<const uint8_t*>(values.data());
-    buffer_.insert(buffer_.end(), bytes, bytes + sizeof values);
-    if (buffer_.size() >= kBuffer) Flush();
-  }
-  ObjValues Take() {
-    Flush();
-    return std::move(values_);
-  }
-  uint64_t count() const { return values_.count; }
-
- private:
-  static constexpr size_t kBuffer = size_t{1} << 18;
-  void Flush() {
-    if (!buffer_.empty()) values_.file->Append(buffer_);
-    buffer_.clear();
-  }
-
-  ObjValues values_;
-  std::vector<uint8_t> buffer_;
-};
-
 class ObjIndexer {
  public:
   ObjIndexer(const MappedFile& file, const Limits& limits)
@@ -225,7 +193,8 @@ class ObjIndexer {
     for (size_t i = 0; i < kObjLists; ++i) {
       if (!named_[i] || lists_[i].count() == 0) continue;
       blocks_.values[i] = lists_[i].Take();
-      schema.attributes.push_back({std::string(kObjListNames[i]), list_numbers_[i].type(),
+      blocks_.values[i].type = list_numbers_[i].type();
+      schema.attributes.push_back({std::string(kObjListNames[i]), blocks_.values[i].type,
                                    static_cast<uint32_t>(blocks_.values[i].columns)});
     }
   }
@@ -264,7 +233,7 @@ class ObjIndexer {
   bool is_even_ = true;      ///< each vertex has as many
   ObjNames names_;
   ObjState state_{};
-  std::array<ListWriter, kObjLists> lists_;
+  std::array<ObjValueWriter, kObjLists> lists_;
   std::array<CoordinateCensus, kObjLists> list_numbers_;
   std::array<bool, kObjLists> named_{};  ///< by a corner of a face
   bool has_huge_faces_ = false;

@@ -4,24 +4,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "folprom/limits.h"
 #include "io/files/mapped_file.h"
-#include "io/files/scratch_file.h"
 #include "io/formats/file_position.h"
 #include "io/formats/indexed_source.h"
 #include "io/formats/obj_statements.h"
+#include "io/formats/obj_values.h"
 #include "io/formats/text_cursor.h"
 
 namespace folprom::io {
-
-/// What corners name beside vertices.
-enum ObjList : size_t { kTextures, kNormals, kObjLists };
-inline constexpr std::array<std::string_view, kObjLists> kObjListKeywords{"vt", "vn"};
-inline constexpr std::array<std::string_view, kObjLists> kObjListNames{"texcoord", "normal"};
 
 /// A block begins at a face; negative indices count back from what was read before.
 struct ObjFaceBlock {
@@ -30,13 +24,6 @@ struct ObjFaceBlock {
   std::array<uint64_t, kObjLists> lists_before{};
   ObjState state{};
   uint64_t triangles = 0;
-};
-
-/// The values of a list, three doubles each, in a file that is gone with them.
-struct ObjValues {
-  uint64_t count = 0;
-  size_t columns = 0;  ///< 1 .. 3 that lines have; what one leaves out is 0
-  std::unique_ptr<ScratchFile> file;
 };
 
 struct ObjBlocks {

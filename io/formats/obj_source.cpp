@@ -9,7 +9,6 @@
 #include <string_view>
 #include <utility>
 
-#include "folprom/float_bits.h"
 #include "io/formats/indexed_source.h"
 #include "io/formats/obj_blocks.h"
 #include "io/formats/polygon_fan.h"
@@ -65,6 +64,7 @@ class ObjSource final : public IndexedSource {
       if (blocks_.values[i].file != nullptr) values_[i] = blocks_.values[i].file->Map();
     }
     for (size_t s = 0; s < kObjStatements.size(); ++s) keeps_[s] = HasAttribute(s);
+    row_bytes_ = index_.face_schema.RowBytes();
   }
 
   Result<void> ReadVertexBlock(size_t block, std::vector<double>* xyz) const override {
@@ -103,7 +103,7 @@ class ObjSource final : public IndexedSource {
     rows->clear();
     if (index_.face_schema.empty()) return {};
     return ResultOf([&] {
-      const size_t bytes = faces_of(block).triangles * index_.face_schema.RowBytes();
+      const size_t bytes = faces_of(block).triangles * row_bytes_;
       rows->reserve(bytes);
       ObjPlace place{faces_of(block).vertices_before, faces_of(block).lists_before,
                      faces_of(block).state};
@@ -135,11 +135,6 @@ class ObjSource final : public IndexedSource {
                              &FaceAttribute::name) != index_.face_schema.attributes.end();
   }
 
-  static uint8_t* StoreReal(ScalarType type, double value, uint8_t* to) {
-    if (type == ScalarType::kFloat64) return StoreLittleEndian(value, to);
-    return StoreLittleEndian(NarrowToFloatBits(value), to);
-  }
-
   /// Takes the next line; true, behind its keyword, where it is a face.
   bool ReadStatement(ObjReader& reader, ObjPlace* place) const {
     const std::string_view keyword = reader.NextKeyword();
@@ -156,34 +151,31 @@ class ObjSource final : public IndexedSource {
     return false;
   }
 
+  /// In the order of the schema: statements, then lists.
   void AddRows(const std::vector<ObjCorner>& corners, const ObjState& state,
                std::vector<uint8_t>* rows) const {
-    const size_t face_bytes = index_.face_schema.FaceBytes();
     for (size_t corner = 2; corner < corners.size(); ++corner) {
       const size_t begin = rows->size();
-      rows->resize(begin + index_.face_schema.RowBytes());
+      rows->resize(begin + row_bytes_);
       uint8_t* to = rows->data() + begin;
       for (size_t s = 0; s < state.size(); ++s) {
         if (keeps_[s]) to = StoreLittleEndian(state[s], to);
       }
-      to = rows->data() + begin + face_bytes;
       for (const size_t c : {size_t{0}, corner - 1, corner}) to = AddCorner(corners[c], to);
     }
   }
 
   /// Not a number stands for what a corner does not name.
   uint8_t* AddCorner(const ObjCorner& corner, uint8_t* to) const {
-    for (const FaceAttribute& attribute : index_.face_schema.attributes) {
-      if (attribute.per_corner == 0) continue;
-      const size_t list = attribute.name == kObjListNames[kTextures] ? kTextures : kNormals;
-      for (uint32_t i = 0; i < attribute.per_corner; ++i) {
+    for (size_t list = 0; list < kObjLists; ++list) {
+      for (size_t i = 0; i < blocks_.values[list].columns; ++i) {
         double value = std::numeric_limits<double>::quiet_NaN();
         if (corner.lists[list] != ObjCorner::kNone) {
           std::memcpy(&value,
                       values_[list].bytes().data() + (3 * corner.lists[list] + i) * sizeof value,
                       sizeof value);
         }
-        to = StoreReal(attribute.type, value, to);
+        to = StoreReal(blocks_.values[list].type, value, to);
       }
     }
     return to;
@@ -288,6 +280,7 @@ class ObjSource final : public IndexedSource {
   ObjBlocks blocks_;  // without the index
   std::array<MappedFile, kObjLists> values_;
   std::array<bool, kObjStatements.size()> keeps_{};  ///< is the statement an attribute
+  size_t row_bytes_ = 0;
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "io/formats/off_colours.h"
 
-#include "folprom/float_bits.h"
 #include "io/formats/store_bytes.h"
 
 namespace folprom::io {
@@ -9,13 +8,8 @@ uint8_t* StoreOffValues(std::span<const double> values, ScalarType type, size_t 
                         uint8_t* to) {
   for (size_t i = 0; i < columns; ++i) {
     const double value = i < values.size() ? values[i] : 0;
-    if (type == ScalarType::kUint8) {
-      to = StoreLittleEndian(static_cast<uint8_t>(value), to);
-    } else if (type == ScalarType::kFloat32) {
-      to = StoreLittleEndian(NarrowToFloatBits(value), to);
-    } else {
-      to = StoreLittleEndian(value, to);
-    }
+    to = type == ScalarType::kUint8 ? StoreLittleEndian(static_cast<uint8_t>(value), to)
+                                    : StoreReal(type, value, to);
   }
   return to;
 }

@@ -6,6 +6,9 @@
 #include <bit>
 #include <cstdint>
 
+#include "folprom/float_bits.h"
+#include "folprom/scalar_type.h"
+
 namespace folprom::io {
 
 /// Stores the value little-endian; returns where the next one goes.
@@ -17,6 +20,12 @@ uint8_t* StoreLittleEndian(T value, uint8_t* to) {
   } else {
     return std::copy(bytes.rbegin(), bytes.rend(), to);
   }
+}
+
+/// The same of a value as float32 or float64.
+inline uint8_t* StoreReal(ScalarType type, double value, uint8_t* to) {
+  if (type == ScalarType::kFloat64) return StoreLittleEndian(value, to);
+  return StoreLittleEndian(NarrowToFloatBits(value), to);
 }
 
 }  // namespace folprom::io

@@ -1,13 +1,13 @@
 #include "tests/cli/program.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
+
+#include "tests/support/child_process.h"
 
 namespace folprom::cli_test {
 namespace fs = std::filesystem;
@@ -25,26 +25,16 @@ void WriteText(const fs::path& path, const std::string& text) {
 CliTest::CliTest() : folder_(root_.File("files")) { fs::create_directory(folder_); }
 
 pid_t CliTest::Start(const std::vector<std::string>& arguments, uint64_t largest_file) const {
-  const std::string out = root_.File("out");
-  const std::string err = root_.File("err");
-  WriteText(err, "");
-  std::vector<std::string> words = {FOLPROM_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const pid_t process = fork();
-  if (process != 0) return process;
-  dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
-  dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-  // Under nohup it is ignored, which a program inherits.
-  signal(SIGHUP, SIG_DFL);
-  if (largest_file > 0) {
+  WriteText(root_.File("err"), "");
+  const auto prepare = [largest_file] {
+    // Under nohup it is ignored, which a program inherits.
+    signal(SIGHUP, SIG_DFL);
+    if (largest_file == 0) return;
     const rlimit limit{largest_file, largest_file};
     setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  execv(argv[0], argv.data());
-  _exit(127);
+  };
+  return support::StartProgram(FOLPROM_PROGRAM, arguments, root_.File("out"), root_.File("err"),
+                               prepare);
 }
 
 std::string CliTest::ErrorsSoFar() const { return FileText(root_.File("err")); }

@@ -1,6 +1,5 @@
 #include "tests/hostile/program_run.h"
 
-#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,11 +8,12 @@
 #include <stdexcept>
 
 #include "tests/hostile/support.h"
+#include "tests/support/child_process.h"
 
 namespace folprom::hostile {
 namespace {
 
-constexpr unsigned kLongestSeconds = 60;
+constexpr unsigned kLongestSeconds = 60;  // an alarm outlives execv
 
 std::string TakeText(const std::string& path) {
   const Bytes bytes = FileContent(path);
@@ -29,20 +29,9 @@ double Seconds(const timeval& time) {
 
 ProgramRun RunProgram(const std::vector<std::string>& arguments, const std::string& folder) {
   const std::string out = folder + "/program.out", err = folder + "/program.err";
-  std::vector<std::string> words = {FOLPROM_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const pid_t process = fork();
+  const pid_t process =
+      support::StartProgram(FOLPROM_PROGRAM, arguments, out, err, [] { alarm(kLongestSeconds); });
   if (process < 0) throw std::runtime_error("no child process");
-  if (process == 0) {
-    dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
-    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    alarm(kLongestSeconds);  // outlives execv
-    execv(argv[0], argv.data());
-    _exit(127);
-  }
   int status = 0;
   rusage usage{};
   if (wait4(process, &status, 0, &usage) != process) throw std::runtime_error("child lost");

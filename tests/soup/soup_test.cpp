@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <string>
@@ -17,14 +15,12 @@
 #include "tests/support/files.h"
 #include "tests/support/ply.h"
 #include "tests/support/random.h"
+#include "tests/support/stl.h"
 #include "tests/support/surfaces.h"
 #include "tests/support/temporary_folder.h"
 
 namespace folprom::support {
 namespace {
-
-using Corner = std::array<uint32_t, 3>;  // bits of floats
-using Facet = std::array<Corner, 3>;
 
 Corner CornerOf(const Point& p) {
   Corner corner;
@@ -56,20 +52,6 @@ std::vector<Facet> FacetsOfZeros() {
           {Corner{minus, 0, 0}, Corner{one, minus, 0}, Corner{0, one, 0}}};
 }
 
-std::string StlBytes(const std::vector<Facet>& facets) {
-  std::string bytes(80, 'x');
-  const auto put = [&](const auto& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  put(static_cast<uint32_t>(facets.size()));
-  for (const Facet& facet : facets) {
-    put(Corner{});
-    put(facet);
-    put(uint16_t{0});
-  }
-  return bytes;
-}
-
 std::string StlText(const std::vector<Facet>& facets) {
   std::string text = "solid a\n";
   for (const Facet& facet : facets) {
@@ -87,25 +69,6 @@ std::string StlText(const std::vector<Facet>& facets) {
     text += "endloop\nendfacet\n";
   }
   return text + "endsolid a\n";
-}
-
-std::vector<Facet> FacetsOf(const std::string& stl) {
-  const std::vector<uint8_t> bytes = FileBytes(stl);
-  std::vector<Facet> facets((bytes.size() - 84) / 50);
-  for (size_t f = 0; f < facets.size(); ++f) {
-    std::memcpy(&facets[f], bytes.data() + 84 + 50 * f + 12, sizeof(Facet));
-  }
-  return facets;
-}
-
-/// Each begins with its least corner, and all are sorted.
-std::vector<Facet> AsSet(std::vector<Facet> facets) {
-  for (Facet& facet : facets) {
-    const Facet turns[] = {facet, {facet[1], facet[2], facet[0]}, {facet[2], facet[0], facet[1]}};
-    facet = *std::ranges::min_element(turns);
-  }
-  std::ranges::sort(facets);
-  return facets;
 }
 
 size_t DifferentCorners(const std::vector<Facet>& facets) {

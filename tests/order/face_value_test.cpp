@@ -9,6 +9,7 @@
 
 #include "parallel/runner.h"
 #include "tests/order/plain_mesh.h"
+#include "tests/order/quads.h"
 #include "tests/support/codec.h"
 #include "tests/support/files.h"
 #include "tests/support/random.h"
@@ -16,8 +17,6 @@
 
 namespace folprom::support {
 namespace {
-
-using Faces = std::vector<std::vector<int64_t>>;
 
 template <class T>
 std::string BytesOf(T value) {
@@ -44,16 +43,7 @@ class Scan {
     }
     return faces;
   }
-  Faces Quads() const {
-    Faces faces;
-    for (int64_t y = 0; y + 1 < side_; ++y) {
-      for (int64_t x = 0; x + 1 < side_; ++x) {
-        const int64_t a = y * side_ + x;
-        faces.push_back({a, a + 1, a + side_ + 1, a + side_});
-      }
-    }
-    return faces;
-  }
+  Faces Quads() const { return support::Quads(side_); }
 
   /// before, behind: property lines. values(face, is_behind): the bytes of a face there.
   template <class Values>

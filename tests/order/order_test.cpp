@@ -53,26 +53,25 @@ void ExpectArraysBackInItsFormat(const std::string& scan) {
   ExpectSameArrays(ReadPlain(folder.File("back" + ending)), ReadPlain(scan));
 }
 
-TEST(Order, GivesTheArraysOfHardFilesBackInTheirOwnFormat) {
+/// Calls expect(path) for each hard file; skips the test where there are none.
+template <class Expect>
+void ForEachHardFile(Expect expect) {
   if (SharedFile("hard/truck.ply").empty()) GTEST_SKIP() << kNoSharedData;
   const auto folder = std::filesystem::path(SharedFile("hard/truck.ply")).parent_path();
   for (const std::string& name : NamesIn(folder)) {
     const std::string path = (folder / name).string();
     if (kSanitized && std::filesystem::file_size(path) > 800'000) continue;
     SCOPED_TRACE(name);
-    ExpectArraysBackInItsFormat(path);
+    expect(path);
   }
 }
 
+TEST(Order, GivesTheArraysOfHardFilesBackInTheirOwnFormat) {
+  ForEachHardFile(ExpectArraysBackInItsFormat);
+}
+
 TEST(Order, GivesTheArraysOfHardFilesBack) {
-  if (SharedFile("hard/truck.ply").empty()) GTEST_SKIP() << kNoSharedData;
-  const auto folder = std::filesystem::path(SharedFile("hard/truck.ply")).parent_path();
-  for (const std::string& name : NamesIn(folder)) {
-    const std::string path = (folder / name).string();
-    if (kSanitized && std::filesystem::file_size(path) > 800'000) continue;
-    SCOPED_TRACE(name);
-    ExpectArraysBack(path, ExactInOrder(20'000));
-  }
+  ForEachHardFile([](const std::string& path) { ExpectArraysBack(path, ExactInOrder(20'000)); });
 }
 
 TEST(Order, GivesTheArraysOfSmallMeshesBack) {

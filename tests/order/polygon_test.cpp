@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/order/plain_mesh.h"
+#include "tests/order/quads.h"
 #include "tests/support/codec.h"
 #include "tests/support/files.h"
 #include "tests/support/random.h"
@@ -13,8 +14,6 @@
 
 namespace folprom::support {
 namespace {
-
-using Faces = std::vector<std::vector<int64_t>>;
 
 EncodeOptions Exact(bool keep_order, uint32_t subtree_vertices = 60) {
   EncodeOptions options;
@@ -30,7 +29,7 @@ std::string OffText(const std::vector<std::string>& vertices, const Faces& faces
   for (const std::string& vertex : vertices) text += vertex + "\n";
   for (const auto& face : faces) {
     text += std::to_string(face.size());
-    for (const int64_t corner : face) text += " " + std::to_string(corner);
+    for (const int64_t corner : face) text.append(" ").append(std::to_string(corner));
     text += "\n";
   }
   return text;
@@ -43,17 +42,6 @@ std::vector<std::string> GridVertices(int64_t side) {
                        std::to_string(i * i % 7));
   }
   return vertices;
-}
-
-Faces Quads(int64_t side) {
-  Faces faces;
-  for (int64_t y = 0; y + 1 < side; ++y) {
-    for (int64_t x = 0; x + 1 < side; ++x) {
-      const int64_t a = y * side + x;
-      faces.push_back({a, a + 1, a + side + 1, a + side});
-    }
-  }
-  return faces;
 }
 
 /// Whatever a file may say is a face: any size, repeated corners and edges, copies, both ways

@@ -1,4 +1,4 @@
-// The stages of an encoding as one object per job; encode.cpp and verify.cpp call them in order.
+// The stages of an encoding as one object per job; encode.cpp and verify_scan call them in order.
 #pragma once
 
 #include <algorithm>

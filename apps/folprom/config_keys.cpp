@@ -76,7 +76,7 @@ std::vector<Key> EncodeKeys(EncodeConfig& config) {
        "\"lattice\"",
        ""},
       {"encode", "attributes", &o.attributes,
-       "colours, normals, all scalars of vertices, and comments come back; needs offsets = "
+       "colours, normals, all else of vertices and faces, and comments come back; needs offsets = "
        "\"lattice\"",
        ""},
       {"encode", "attribute_bits", &o.attribute_bits,

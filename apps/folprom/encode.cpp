@@ -217,8 +217,9 @@ Verb AddEncode(CLI::App& program) {
   verb->add_flag("--exact", flags->exact, "Positions come back bit for bit, NaN and all")
       ->excludes(bits)
       ->excludes(tolerance);
-  verb->add_flag("--no-attributes", flags->no_attributes,
-                 "Without colours, normals and what else vertices have, and without comments");
+  verb->add_flag(
+      "--no-attributes", flags->no_attributes,
+      "Without colours, normals and what else vertices and faces have, and without comments");
   verb->add_option("--attribute-bits", flags->attribute_bits,
                    "Rounds a float attribute to 2^N values over its range, normal=10; may be given "
                    "again")

@@ -1,8 +1,12 @@
 #include "engine/verify_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/encode_job.h"
 #include "engine/match_sink.h"

@@ -1,13 +1,13 @@
-// Are order and polygons of a decoded mesh those of a scan.
+// Are order, polygons and attributes of faces of a decoded mesh those of a scan.
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/folp_file.h"
-#include "engine/mesh_sinks.h"
+#include "engine/order/face_value_digest.h"
+#include "engine/order/polygon_digest.h"
 #include "engine/ordered_mesh.h"
 #include "folprom/folprom.h"
 #include "io/formats/mesh_source.h"

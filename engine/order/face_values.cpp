@@ -126,12 +126,12 @@ FaceValueCoder::Guesses FaceValueCoder::GuessFace(const Column& column, const Fa
   return guesses;
 }
 
-uint32_t FaceValueCoder::VertexAcross(uint32_t a, uint32_t b, uint32_t than) {
+uint32_t FaceValueCoder::VertexAcross(uint32_t a, uint32_t b, uint32_t third) {
   for (const uint32_t number : mesh_.Star(a, kMostFaces)) {
     const Face& face = mesh_.faces[number];
     if (std::ranges::count(face, b) == 0) continue;
     for (const uint32_t vertex : face) {
-      if (vertex != a && vertex != b && vertex != than && CornersAt(vertex) > 0) return vertex;
+      if (vertex != a && vertex != b && vertex != third && CornersAt(vertex) > 0) return vertex;
     }
   }
   return kNoNumber;

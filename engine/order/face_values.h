@@ -80,8 +80,9 @@ class FaceValueCoder {
   Guesses GuessFace(const Column& column, const Face& triangle);
   Guesses GuessCorner(const Column& column, const Face& triangle, size_t corner,
                       const uint8_t* corners, uint32_t known, bool is_joined);
-  /// The vertex beyond the edge of two corners that has values; kNoNumber.
-  uint32_t VertexAcross(uint32_t a, uint32_t b, uint32_t than);
+  /// The third vertex of a triangle at the edge of a and b, but `third`, that keeps values of
+  /// corners; kNoNumber where there is none.
+  uint32_t VertexAcross(uint32_t a, uint32_t b, uint32_t third);
   /// Codes the columns; guess(column) gives the Guesses.
   template <class Coder, class Guess>
   void CodeGroup(Coder& coder, Group& group, Guess guess, uint8_t* values, Outcome* first);

@@ -141,11 +141,11 @@ CodecSettings WithEffort(CodecSettings settings, uint32_t effort) {
   // large ones smaller for they have fewer seams and models learn longer. The last looks at the
   // whole file alone: rings are even, and no early layer is told set by set.
   constexpr uint32_t k = 1024;
-  constexpr Preset kPresets[] = {{0, 1, 32 * k, 4, 0.01, 0.05},  {4, 1, 32 * k, 4, 0.01, 0.05},
-                                 {4, 1, 64 * k, 4, 0.01, 0.05},  {3, 2, 64 * k, 4, 0.01, 0.05},
-                                 {2, 2, 128 * k, 4, 0.01, 0.05}, {2, 2, 256 * k, 4, 0.01, 0.05},
-                                 {1, 2, 256 * k, 4, 0.01, 0.05}, {1, 3, 512 * k, 4, 0.03, 0.05},
-                                 {1, 3, 1024 * k, 1, 0.06, 0}};
+  constexpr Preset kPresets[] = {{0, 1, 32 * k, 4, 0.015, 0.05},  {4, 1, 32 * k, 4, 0.015, 0.05},
+                                 {4, 1, 64 * k, 4, 0.015, 0.05},  {3, 2, 64 * k, 4, 0.015, 0.05},
+                                 {2, 2, 192 * k, 4, 0.015, 0.05}, {2, 2, 256 * k, 4, 0.015, 0.05},
+                                 {1, 2, 256 * k, 4, 0.015, 0.05}, {1, 3, 512 * k, 4, 0.03, 0.05},
+                                 {1, 3, 1024 * k, 1, 0.1, 0}};
   settings.effort = effort;
   if (effort < 1 || effort > std::size(kPresets)) return settings;
   const Preset& preset = kPresets[effort - 1];

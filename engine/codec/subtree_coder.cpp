@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "engine/codec/leaf_signs.h"
+#include "engine/codec/plane_coder.h"
 #include "engine/entropy/bit_coder.h"
 #include "engine/entropy/even_code.h"
 
@@ -75,6 +77,7 @@ void SubtreeCoder::CodeLayer(Coder& coder, SubtreeTruth* truth, CostMeters* mete
   }
   coder.SetMeter(&meters->refinement);
   if (lattice_coder_) {
+    CodePlanes(coder, truth);
     CodePrecision(coder, truth);
     CodeLatticeRefinement(coder, truth);
   }
@@ -282,6 +285,21 @@ void SubtreeCoder::CodePrecision(Coder& coder, const SubtreeTruth* truth) {
   LatticePrecision chosen;
   if constexpr (Coder::kEncoding) chosen = truth->Precision(lod_.complex, open_, shift);
   precision_.Code(coder, shift, chosen);
+}
+
+template <class Coder>
+void SubtreeCoder::CodePlanes(Coder& coder, const SubtreeTruth* truth) {
+  // Before, cells are too large for planes to tell much, and each byte counts.
+  constexpr uint32_t kLeastVertices = 256, kLive = 1024, kLivePart = 8;
+  if (has_told_planes_ || shape_.vertices < kLeastVertices ||
+      lod_.size() < std::min(kLive, shape_.vertices / kLivePart)) {
+    return;
+  }
+  has_told_planes_ = true;
+  std::shared_ptr<const CoordinatePlanes> planes;
+  if constexpr (Coder::kEncoding) planes = truth->Planes();
+  lattice_coder_->UsePlanes(
+      PlaneCoder(shape_.box_lo, shape_.box_hi).Code(coder, std::move(planes)));
 }
 
 template <class Coder>

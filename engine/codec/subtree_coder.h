@@ -119,6 +119,9 @@ class SubtreeCoder {
   /// Brings every vertex to the precision of the layer.
   template <class Coder>
   void CodeLatticeRefinement(Coder& coder, const SubtreeTruth* truth);
+  /// Once, where enough is known for the planes to tell something.
+  template <class Coder>
+  void CodePlanes(Coder& coder, const SubtreeTruth* truth);
   template <class Coder>
   void CodeFit(Coder& coder, const SubtreeTruth* truth);
   template <class Coder>
@@ -149,6 +152,7 @@ class SubtreeCoder {
   std::optional<GridCoder> grid_;
   std::optional<AttributeCoder> attributes_;
   PrecisionCoder precision_;
+  bool has_told_planes_ = false;
   std::optional<LodFit> fit_;
   size_t fitted_size_ = 0;  ///< of the LOD whose shares were told last
   DueCoder due_;

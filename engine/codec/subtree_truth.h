@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "engine/codec/lod_fit.h"
@@ -10,6 +11,7 @@
 #include "engine/connectivity/face_exceptions.h"
 #include "engine/connectivity/split_oracle.h"
 #include "engine/geometry/lattice_coder.h"
+#include "engine/mesh/coordinate_planes.h"
 #include "engine/mesh/types.h"
 
 namespace folprom {
@@ -43,6 +45,8 @@ class SubtreeTruth : public RestTruth {
   /// Where the vertices of the LOD are best drawn while the `open` sets are not split.
   virtual FitShares Fit(const SubtreeLod& lod, std::span<const uint32_t> open,
                         const FitShares& before) const = 0;
+  /// Coordinates that many vertices share; null where there are none.
+  virtual std::shared_ptr<const CoordinatePlanes> Planes() const = 0;
   virtual SplitOracle* oracle() = 0;
   /// Final faces, in terms of `complex`, for the exceptions.
   virtual FaceCensus CountFaces(const Complex& complex) const = 0;

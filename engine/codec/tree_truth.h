@@ -7,6 +7,7 @@
 
 #include "engine/codec/lattice_precision.h"
 #include "engine/codec/parameters.h"
+#include "engine/codec/plane_census.h"
 #include "engine/codec/subtree_truth.h"
 #include "engine/connectivity/split_oracle.h"
 #include "engine/hierarchy/lloyd_tree.h"
@@ -41,6 +42,9 @@ class TreeTruth final : public SubtreeTruth {
   }
   FitShares Fit(const SubtreeLod& lod, std::span<const uint32_t> open,
                 const FitShares& before) const override;
+  std::shared_ptr<const CoordinatePlanes> Planes() const override {
+    return FindPlanes(chunk_.positions);
+  }
   SplitOracle* oracle() override { return &oracle_; }
   CoordinateRest Rest(uint32_t set, size_t axis) const override;
   FaceCensus CountFaces(const Complex& complex) const override;

@@ -12,6 +12,7 @@
 
 #include "engine/entropy/axis_density.h"
 #include "engine/entropy/mixed_model.h"
+#include "engine/entropy/plane_window.h"
 
 namespace folprom {
 
@@ -68,6 +69,15 @@ struct CellDensity {
   const AxisDensity* axis = nullptr;  ///< null: says nothing
   double origin = 0;
   double cell = 1;
+  const PlaneWindow* planes = nullptr;  ///< cells of other weight; null: none
+
+  bool tells() const { return axis != nullptr || planes != nullptr; }
+  /// What lies below cell k, all cells of the same weight; where nothing was measured, of a
+  /// logistic density whose power there is given.
+  double Below(int64_t k, double power) const {
+    if (axis == nullptr) return power / (1 + power);
+    return axis->Below(cell * static_cast<double>(k) - origin);
+  }
 };
 
 /// Mean size of what predictions miss by, per context, in a unit that the caller chooses.
@@ -96,8 +106,8 @@ class CellModel {
   static constexpr uint32_t kOctaves = 10;
   static constexpr uint32_t kSlots = 1 + 2 * kOctaves + 2 * kOctaves + 1;
 
-  explicit CellModel(std::array<uint32_t, N> sizes, uint32_t mixers = 1)
-      : decisions_(Scaled(sizes), kSlots, mixers) {}
+  explicit CellModel(std::array<uint32_t, N> sizes, uint32_t mixers = 1, bool on_planes = false)
+      : decisions_(Scaled(sizes, on_planes), on_planes ? 4 * kSlots : kSlots, mixers) {}
 
   /// Codes value in [lo, hi]. Decisions that the range makes certain cost nothing.
   template <class Coder>
@@ -148,8 +158,9 @@ class CellModel {
     const CellDensity* density;
   };
 
-  static std::array<uint32_t, N> Scaled(std::array<uint32_t, N> sizes) {
+  static std::array<uint32_t, N> Scaled(std::array<uint32_t, N> sizes, bool on_planes) {
     for (uint32_t& size : sizes) size *= kSlots;
+    if (on_planes) sizes[N - 1] *= 4;
     return sizes;
   }
   static End EndAt(const std::array<CellPrediction, P>& predictions, const CellDensity& density,
@@ -159,8 +170,9 @@ class CellModel {
       end.power[p] =
           detail::LogisticPower(static_cast<double>(at), predictions[p].mean, predictions[p].scale);
     }
-    if (M > 0 && density.axis != nullptr) {
-      end.below = density.axis->Below(density.cell * static_cast<double>(at) - density.origin);
+    if (M > 0 && density.tells()) {
+      const double below = density.Below(at, end.power[0]);
+      end.below = density.planes != nullptr ? density.planes->Weighted(at, below) : below;
     }
     return end;
   }
@@ -178,13 +190,20 @@ class CellModel {
     for (size_t p = 0; p < P; ++p) {
       inputs[p] = detail::LogisticOdds(first.power[p], here.power[p], last.power[p]);
     }
-    if (M > 0 && interval->density->axis != nullptr) {
+    if (M > 0 && interval->density->tells()) {
       inputs[P + M - 1] = detail::LogOdds(std::max(last.below - here.below, detail::kLeastPart),
                                           std::max(here.below - first.below, detail::kLeastPart));
     }
     std::array<uint32_t, N> scaled;
     for (size_t i = 0; i < N; ++i) scaled[i] = contexts[i] * kSlots + slot;
-    bool upper = decisions_.Code(coder, scaled, slot, value >= at, inputs);
+    uint32_t set = slot;
+    if (M > 0 && interval->density->planes != nullptr) {
+      const PlaneWindow& planes = *interval->density->planes;
+      set =
+          slot * 4 + (planes.Any(interval->a, at) ? 2 : 0) + (planes.Any(at, interval->c) ? 1 : 0);
+      scaled[N - 1] = scaled[N - 1] * 4 + set % 4;
+    }
+    bool upper = decisions_.Code(coder, scaled, set, value >= at, inputs);
     if (upper) {
       interval->a = at;
       interval->first = here;

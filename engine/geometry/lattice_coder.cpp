@@ -45,7 +45,11 @@ LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings setti
       tangential_fit_(8, OnlineRegression<5>({2, 0, 0, 0, 0})),
       tangential_scale_(2 * 2 * 8 * 6, 1),
       normal_scale_(2 * 16, 1),
-      refine_({2 * 12, 16}) {}
+      refine_({2 * 12, 16}),
+      tangential_on_planes_({2 * 6 * 8, 9 * 9 * 2, 2 * 16, PlaneModel::kContexts}, settings.mixers,
+                            true),
+      normal_on_planes_({16 * 4, 16 * 6, PlaneModel::kContexts}, settings.mixers, true),
+      refine_on_planes_({2 * 12, 16, PlaneModel::kHalfContexts[0], PlaneModel::kHalfContexts[1]}) {}
 
 void LatticeCoder::Visit(LearnedStateVisitor& visitor) {
   tangential_.Visit(visitor);
@@ -55,6 +59,10 @@ void LatticeCoder::Visit(LearnedStateVisitor& visitor) {
   tangential_scale_.Visit(visitor);
   normal_scale_.Visit(visitor);
   refine_.Visit(visitor);
+  plane_model_.Visit(visitor);
+  tangential_on_planes_.Visit(visitor);
+  normal_on_planes_.Visit(visitor);
+  refine_on_planes_.Visit(visitor);
 }
 
 int32_t LatticeCoder::Centre(uint32_t axis, int32_t cell, uint32_t shift) const {
@@ -63,93 +71,156 @@ int32_t LatticeCoder::Centre(uint32_t axis, int32_t cell, uint32_t shift) const 
   return static_cast<int32_t>(std::clamp<int64_t>(centre, lo_[axis], hi_[axis]));
 }
 
+struct LatticeCoder::NewVertex {
+  const Int3& old;
+  const RingShape& ring;
+  uint32_t count, eccentricity;  ///< buckets
+  Vector3 ahead;                 ///< where it is expected, relative to the old one
+  Vector3 offset{0, 0, 0};       ///< of the coordinates that are coded
+  double miss_before = 0, variance_before = 1;
+
+  double inverse() const { return 1 / ring.spacing; }
+};
+
+struct LatticeCoder::Coordinate {
+  uint32_t step, axis, shift;
+  int32_t lo, hi, value;  ///< cells
+  double cell, origin;    ///< lattice units; where offset 0 is
+};
+
+template <size_t N, class Coder, class Model>
+int32_t LatticeCoder::CodeCell(Coder& coder, const NewVertex& vertex, const Coordinate& at,
+                               const std::array<uint32_t, N>& contexts,
+                               const std::array<CellPrediction, 2>& predictions,
+                               const AxisDensity* measured, Model* model,
+                               CellModel<N + 1, 2, 1>* on_planes) {
+  CellDensity density{measured, at.origin, at.cell};
+  PlaneWindow window;
+  const auto below = [&](int64_t k) {
+    const double power =
+        detail::LogisticPower(static_cast<double>(k), predictions[0].mean, predictions[0].scale);
+    return density.Below(k, power);
+  };
+  if (plane_model_.Weigh({at.axis, at.shift, at.lo, at.hi, predictions[0].mean,
+                          At(vertex.old, at.axis) >> at.shift},
+                         below, &window)) {
+    density.planes = &window;
+    std::array<uint32_t, N + 1> more;
+    std::copy(contexts.begin(), contexts.end(), more.begin());
+    more[N] = plane_model_.context();
+    return on_planes->Code(coder, more, predictions, at.lo, at.hi, at.value, density);
+  }
+  return model->Code(coder, contexts, predictions, at.lo, at.hi, at.value, density);
+}
+
+/// Along the surface.
+template <class Coder>
+int32_t LatticeCoder::CodeAlong(Coder& coder, const Coordinate& at, NewVertex* vertex) {
+  const RingShape& ring = vertex->ring;
+  const uint32_t axis = at.axis, step = at.step, first = (ring.dominant + 1) % 3;
+  const double inverse = vertex->inverse();
+  double variance = Covariance(ring, axis, axis), slope = 0;
+  if (step == 1) {
+    slope = Covariance(ring, first, axis) / vertex->variance_before;
+    variance = variance - slope * Covariance(ring, first, axis);
+  }
+  const double floor = 0.02 * ring.spacing * ring.spacing;
+  if (!(variance > floor)) variance = floor;
+  if (step == 0) vertex->variance_before = variance;
+  const double width = std::sqrt(variance), straight = vertex->ahead[axis];
+  if (has_density_ && step == 0) density_.First(axis, &axis_density_);
+  if (has_density_ && step == 1) {
+    density_.Second(axis, first, vertex->offset[first], &axis_density_);
+  }
+  const double far = straight + slope * vertex->miss_before;
+  const double near =
+      ring.mean[axis] + (step == 1 ? slope * (vertex->offset[first] - ring.mean[first]) : 0);
+  const uint32_t place = (step * 8 + vertex->count) * 6 + vertex->eccentricity;
+  const std::array<double, 2> means{far, near};
+  std::array<CellPrediction, 2> predictions;
+  for (uint32_t p = 0; p < 2; ++p) {
+    const double scale = kScalePerMiss * tangential_scale_.Of(place * 2 + p) * width / at.cell;
+    predictions[p] = {(at.origin + means[p]) / at.cell, std::max(scale, 0.05)};
+  }
+  const uint32_t lean = Bucket(ring.mean[axis] * inverse, kSideBounds);
+  const uint32_t side = step == 0 ? 4 : Bucket(vertex->offset[first] * inverse, kSideBounds);
+  const std::array<uint32_t, 3> contexts{(step * 6 + vertex->eccentricity) * 8 + vertex->count,
+                                         (lean * 9 + side) * 2 + step,
+                                         OctaveBucket(width / at.cell) * 2 + step};
+  const int32_t value =
+      CodeCell(coder, *vertex, at, contexts, predictions, has_density_ ? &axis_density_ : nullptr,
+               &tangential_, &tangential_on_planes_);
+  const double place_now = static_cast<double>(Centre(axis, value, at.shift)) + 0.5 - at.origin;
+  vertex->offset[axis] = place_now;
+  for (uint32_t p = 0; p < 2; ++p) {
+    tangential_scale_.Learn(place * 2 + p, std::fabs(place_now - means[p]) / width);
+  }
+  if (step == 0) vertex->miss_before = place_now - straight;
+  tangential_fit_[vertex->count].Learn(Features(ring, axis),
+                                       std::clamp(place_now * inverse, -64.0, 64.0));
+  if (has_density_ && step == 1) density_.Learn(place_now);
+  return value;
+}
+
+/// Across the surface.
+template <class Coder>
+int32_t LatticeCoder::CodeAcross(Coder& coder, const Coordinate& at, const NewVertex& vertex) {
+  const RingShape& ring = vertex.ring;
+  const uint32_t axis = at.axis, i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const double steep = std::fabs(ring.normal[axis]);
+  const double bent = ring.MeetQuadric(vertex.offset);
+  const double flat =
+      -(ring.normal[i] * vertex.offset[i] + ring.normal[j] * vertex.offset[j]) / ring.normal[axis];
+  const double width = (ring.fit_error + 0.1 * ring.height_range) / steep + 0.25 * at.cell;
+  const uint32_t width_bucket = OctaveBucket(width / at.cell);
+  const std::array<double, 2> means{bent, flat};
+  std::array<CellPrediction, 2> predictions;
+  for (uint32_t p = 0; p < 2; ++p) {
+    const double scale = kScalePerMiss * normal_scale_.Of(width_bucket * 2 + p) * width / at.cell;
+    predictions[p] = {(at.origin + means[p]) / at.cell, std::max(scale, 0.05)};
+  }
+  const uint32_t tilt = steep < 0.7 ? 0 : (steep < 0.85 ? 1 : (steep < 0.95 ? 2 : 3));
+  const std::array<uint32_t, 2> contexts{
+      width_bucket * 4 + tilt,
+      OctaveBucket(2 * ring.fit_error / at.cell) * 6 + vertex.eccentricity};
+  const int32_t value =
+      CodeCell(coder, vertex, at, contexts, predictions, nullptr, &normal_, &normal_on_planes_);
+  const double place_now = static_cast<double>(Centre(axis, value, at.shift)) + 0.5 - at.origin;
+  for (uint32_t p = 0; p < 2; ++p) {
+    normal_scale_.Learn(width_bucket * 2 + p, std::fabs(place_now - means[p]) / width);
+  }
+  return value;
+}
+
 template <class Coder>
 Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
                            LatticePrecision precision, const Int3& truth,
                            uint64_t* tangential_meter, uint64_t* normal_meter) {
   Int3 result;
   Shifts shifts;
-  uint32_t count = CountBucket(ring.count);
-  double inverse = 1 / ring.spacing;
-  double off_centre = std::sqrt(Dot(ring.mean, ring.mean)) * inverse;
-  uint32_t eccentricity = Bucket(off_centre, kEccentricityBounds);
-  Vector3 offset{0, 0, 0};
-  double miss_before = 0, variance_before = 1;
-  Vector3 ahead;
+  NewVertex vertex{old, ring, CountBucket(ring.count), 0, {}};
+  const double off_centre = std::sqrt(Dot(ring.mean, ring.mean)) * vertex.inverse();
+  vertex.eccentricity = Bucket(off_centre, kEccentricityBounds);
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    ahead[axis] = tangential_fit_[count].Predict(Features(ring, axis)) * ring.spacing;
+    vertex.ahead[axis] = tangential_fit_[vertex.count].Predict(Features(ring, axis)) * ring.spacing;
   }
-  if (has_density_) density_.Prepare(ring, ahead);
+  if (has_density_) density_.Prepare(ring, vertex.ahead);
+  plane_model_.Start();
   for (uint32_t step = 0; step < 3; ++step) {
     coder.SetMeter(step < 2 ? tangential_meter : normal_meter);
-    uint32_t axis = (ring.dominant + 1 + step) % 3;
-    uint32_t shift = step < 2 ? precision.tangential : precision.normal;
+    const uint32_t axis = (ring.dominant + 1 + step) % 3;
+    const uint32_t shift = step < 2 ? precision.tangential : precision.normal;
     shifts[axis] = static_cast<uint8_t>(shift);
-    double cell = static_cast<double>(uint64_t{1} << shift);
-    double origin = static_cast<double>(At(old, axis)) + 0.5;
-    int32_t lo = lo_[axis] >> shift, hi = hi_[axis] >> shift, value = At(truth, axis) >> shift;
-    std::array<CellPrediction, 2> predictions;
-    if (step < 2) {
-      uint32_t first = (ring.dominant + 1) % 3;
-      double variance = Covariance(ring, axis, axis), slope = 0;
-      if (step == 1) {
-        slope = Covariance(ring, first, axis) / variance_before;
-        variance = variance - slope * Covariance(ring, first, axis);
-      }
-      double floor = 0.02 * ring.spacing * ring.spacing;
-      if (!(variance > floor)) variance = floor;
-      if (step == 0) variance_before = variance;
-      double width = std::sqrt(variance);
-      double straight = ahead[axis];
-      if (has_density_ && step == 0) density_.First(axis, &axis_density_);
-      if (has_density_ && step == 1) {
-        density_.Second(axis, first, offset[first], &axis_density_);
-      }
-      double far = straight + slope * miss_before;
-      double near = ring.mean[axis] + (step == 1 ? slope * (offset[first] - ring.mean[first]) : 0);
-      uint32_t place = (step * 8 + count) * 6 + eccentricity;
-      std::array<double, 2> means{far, near};
-      for (uint32_t p = 0; p < 2; ++p) {
-        double scale = kScalePerMiss * tangential_scale_.Of(place * 2 + p) * width / cell;
-        predictions[p] = {(origin + means[p]) / cell, std::max(scale, 0.05)};
-      }
-      uint32_t lean = Bucket(ring.mean[axis] * inverse, kSideBounds);
-      uint32_t side = step == 0 ? 4 : Bucket(offset[first] * inverse, kSideBounds);
-      std::array<uint32_t, 3> contexts{(step * 6 + eccentricity) * 8 + count,
-                                       (lean * 9 + side) * 2 + step,
-                                       OctaveBucket(width / cell) * 2 + step};
-      value = tangential_.Code(coder, contexts, predictions, lo, hi, value,
-                               {has_density_ ? &axis_density_ : nullptr, origin, cell});
-      double place_now = static_cast<double>(Centre(axis, value, shift)) + 0.5 - origin;
-      offset[axis] = place_now;
-      for (uint32_t p = 0; p < 2; ++p) {
-        tangential_scale_.Learn(place * 2 + p, std::fabs(place_now - means[p]) / width);
-      }
-      if (step == 0) miss_before = place_now - straight;
-      tangential_fit_[count].Learn(Features(ring, axis),
-                                   std::clamp(place_now * inverse, -64.0, 64.0));
-      if (has_density_ && step == 1) density_.Learn(place_now);
-    } else {
-      double steep = std::fabs(ring.normal[axis]);
-      double bent = ring.MeetQuadric(offset);
-      uint32_t i = (axis + 1) % 3, j = (axis + 2) % 3;
-      double flat = -(ring.normal[i] * offset[i] + ring.normal[j] * offset[j]) / ring.normal[axis];
-      double width = (ring.fit_error + 0.1 * ring.height_range) / steep + 0.25 * cell;
-      uint32_t width_bucket = OctaveBucket(width / cell);
-      std::array<double, 2> means{bent, flat};
-      for (uint32_t p = 0; p < 2; ++p) {
-        double scale = kScalePerMiss * normal_scale_.Of(width_bucket * 2 + p) * width / cell;
-        predictions[p] = {(origin + means[p]) / cell, std::max(scale, 0.05)};
-      }
-      uint32_t tilt = steep < 0.7 ? 0 : (steep < 0.85 ? 1 : (steep < 0.95 ? 2 : 3));
-      std::array<uint32_t, 2> contexts{width_bucket * 4 + tilt,
-                                       OctaveBucket(2 * ring.fit_error / cell) * 6 + eccentricity};
-      value = normal_.Code(coder, contexts, predictions, lo, hi, value);
-      double place_now = static_cast<double>(Centre(axis, value, shift)) + 0.5 - origin;
-      for (uint32_t p = 0; p < 2; ++p) {
-        normal_scale_.Learn(width_bucket * 2 + p, std::fabs(place_now - means[p]) / width);
-      }
-    }
+    const Coordinate at{step,
+                        axis,
+                        shift,
+                        lo_[axis] >> shift,
+                        hi_[axis] >> shift,
+                        At(truth, axis) >> shift,
+                        static_cast<double>(uint64_t{1} << shift),
+                        static_cast<double>(At(old, axis)) + 0.5};
+    const int32_t value = step < 2 ? CodeAlong(coder, at, &vertex) : CodeAcross(coder, at, vertex);
+    plane_model_.Learn(value);
     At(result, axis) = Centre(axis, value, shift);
   }
   shifts_.push_back(shifts);
@@ -160,6 +231,18 @@ bool LatticeCoder::IsCoarser(uint32_t vertex, LatticePrecision precision) const 
   uint32_t least = std::min(precision.tangential, precision.normal);
   const Shifts& shifts = shifts_[vertex];
   return shifts[0] > least || shifts[1] > least || shifts[2] > least;
+}
+
+template <class Coder>
+bool LatticeCoder::CodeHalf(Coder& coder, uint32_t axis, uint32_t lean_context, const Int3& known,
+                            const Shifts& shifts, bool upper) {
+  const uint32_t size = std::min<uint32_t>(shifts[axis], 15);
+  const std::array<int32_t, 3> cells{known.x >> shifts[0], known.y >> shifts[1],
+                                     known.z >> shifts[2]};
+  const PlaneModel::HalfSigns signs = plane_model_.SignsOf(axis, cells, shifts);
+  if (!signs.tells) return refine_.Code(coder, {lean_context, size}, 0, upper);
+  return refine_on_planes_.Code(coder, {lean_context, size, signs.contexts[0], signs.contexts[1]},
+                                0, upper);
 }
 
 template <class Coder>
@@ -185,7 +268,7 @@ Int3 LatticeCoder::Refine(Coder& coder, uint32_t vertex, const Int3& known, cons
       if (int64_t{first + 1} << (shift - 1) > hi_[axis]) {
         upper = false;
       } else {
-        upper = refine_.Code(coder, {context, std::min(shift, 15u)}, 0, upper);
+        upper = CodeHalf(coder, axis, context, result, shifts, upper);
       }
       shifts[axis] = static_cast<uint8_t>(shift - 1);
       At(result, axis) = Centre(axis, first + (upper ? 1 : 0), shift - 1);

@@ -6,11 +6,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/entropy/cell_model.h"
 #include "engine/entropy/mixed_model.h"
 #include "engine/entropy/online_regression.h"
+#include "engine/geometry/plane_model.h"
 #include "engine/geometry/ring_shape.h"
 #include "engine/geometry/tangent_density.h"
 #include "engine/mesh/types.h"
@@ -34,6 +37,11 @@ class LatticeCoder {
   /// Coordinates lie in [lo, hi].
   LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings settings);
 
+  /// From now on coordinates on these planes are likelier.
+  void UsePlanes(std::shared_ptr<const CoordinatePlanes> planes) {
+    plane_model_.Use(std::move(planes));
+  }
+
   /// A vertex that is known exactly. It gets the next number.
   void AddExact() { shifts_.push_back({0, 0, 0}); }
 
@@ -53,6 +61,22 @@ class LatticeCoder {
 
  private:
   using Shifts = std::array<uint8_t, 3>;
+  struct NewVertex;
+  struct Coordinate;
+  /// The cell of a coordinate, by one of the two models.
+  template <size_t N, class Coder, class Model>
+  int32_t CodeCell(Coder& coder, const NewVertex& vertex, const Coordinate& at,
+                   const std::array<uint32_t, N>& contexts,
+                   const std::array<CellPrediction, 2>& predictions, const AxisDensity* measured,
+                   Model* model, CellModel<N + 1, 2, 1>* on_planes);
+  template <class Coder>
+  int32_t CodeAlong(Coder& coder, const Coordinate& at, NewVertex* vertex);
+  template <class Coder>
+  int32_t CodeAcross(Coder& coder, const Coordinate& at, const NewVertex& vertex);
+  /// One more bit of a coordinate.
+  template <class Coder>
+  bool CodeHalf(Coder& coder, uint32_t axis, uint32_t lean_context, const Int3& known,
+                const Shifts& shifts, bool upper);
   int32_t Centre(uint32_t axis, int32_t cell, uint32_t shift) const;
 
   std::array<int32_t, 3> lo_, hi_;
@@ -67,6 +91,11 @@ class LatticeCoder {
   ScaleTable tangential_scale_;
   ScaleTable normal_scale_;
   MixedModel<2> refine_;
+  // The same where coordinates on planes are likelier.
+  PlaneModel plane_model_;
+  CellModel<4, 2, 1> tangential_on_planes_;
+  CellModel<3, 2, 1> normal_on_planes_;
+  MixedModel<4> refine_on_planes_;
 };
 
 }  // namespace folprom

@@ -19,7 +19,7 @@ constexpr size_t kMostCandidates = 64;
 /// much more.
 constexpr float kForbiddenFactor = 64;
 /// Of objects of flat faces lengths weigh so much less: edges stay where they are.
-constexpr double kSharpening = 100;
+constexpr double kSharpening = 150;
 constexpr float kLeastCost = 1e-20F;
 /// Of regular grids so many times every second row or column goes first.
 constexpr uint32_t kGridRounds = 6;

@@ -21,17 +21,19 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0xe50c6c0604865020;
+constexpr uint64_t kDefaultHash = 0x8c6086ab83c93d58;
 constexpr uint64_t kPaperHash = 0xff54d217bc565c95;
-constexpr uint64_t kSubtreesHash = 0xacd901bf22dc329;
-constexpr uint64_t kRangeHash = 0xaffdde908ecd98b3;
-constexpr uint64_t kLeastEffortHash = 0x3b446551723ed231;
-constexpr uint64_t kMostEffortHash = 0x39199a74b7b04a2;
-constexpr uint64_t kExactHash = 0x8e4696ad855d4119;
-constexpr uint64_t kExactRestsHash = 0x931cd5477136984d;
+constexpr uint64_t kSubtreesHash = 0x984f04b18ff37f62;
+constexpr uint64_t kRangeHash = 0xf8a9481ce53f0dc3;
+constexpr uint64_t kLeastEffortHash = 0x890381cbc8f72f2;
+constexpr uint64_t kMostEffortHash = 0xdcdc5535415a604f;
+constexpr uint64_t kVoxelHash = 0x624a2c0806a4113c;
+constexpr uint64_t kExactVoxelHash = 0xccdc26c6bd1e55bb;
+constexpr uint64_t kExactHash = 0x477132405e3800fc;
+constexpr uint64_t kExactRestsHash = 0xfa2ae1f22dcdd3e4;
 constexpr uint64_t kOtherHash = 0x686c170d43bdc25d;
-constexpr uint64_t kSoupHash = 0xa175c70b616620ab;
-constexpr uint64_t kAttributesHash = 0x603fb82ee7ad905b;
+constexpr uint64_t kSoupHash = 0x60f7bb153b2e5465;
+constexpr uint64_t kAttributesHash = 0x1af32559ddc85933;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {
@@ -89,6 +91,16 @@ TEST(GoldenTest, RangeGridsInSubtreesGiveTheKnownBytes) {
   options.bits = 15;
   options.codec.subtree_vertices = 2500;
   ExpectHashOf(folder.File("scan.ply"), "kRangeHash", kRangeHash, options);
+}
+
+TEST(GoldenTest, SurfacesOfVoxelsInSubtreesGiveTheKnownBytes) {
+  TemporaryFolder folder;
+  WritePly(folder.File("scan.ply"), VoxelTerrain(90, 70, 1), CoordinateType::kInt);
+  EncodeOptions options;
+  options.bits = 14;
+  options.codec.subtree_vertices = 2500;
+  ExpectHashOf(folder.File("scan.ply"), "kVoxelHash", kVoxelHash, options);
+  ExpectHashOf(folder.File("scan.ply"), "kExactVoxelHash", kExactVoxelHash, ExactOptions(2500));
 }
 
 TEST(GoldenTest, LeastAndMostEffortInSubtreesGiveTheKnownBytes) {

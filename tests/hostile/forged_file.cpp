@@ -47,6 +47,7 @@ class CopyingTruth final : public SubtreeTruth {
                 const FitShares& before) const override {
     return honest_.Fit(lod, open, before);
   }
+  std::shared_ptr<const CoordinatePlanes> Planes() const override { return nullptr; }
   SplitOracle* oracle() override { return honest_.oracle(); }
   FaceCensus CountFaces(const Complex& complex) const override {
     FaceCensus census = honest_.CountFaces(complex);

@@ -169,6 +169,8 @@ Mesh MoebiusStrip() {
 
 Mesh SmallTorus() { return Torus(24, 12); }
 
+Mesh CutOutOfVoxels() { return VoxelTerrain(24, 22, 5); }
+
 Mesh SeparateTriangles() {
   Mesh mesh = RandomPoints(450, 7);
   for (uint64_t i = 0; i < 450; i += 3) mesh.faces.push_back({i, i + 1, i + 2});
@@ -295,6 +297,7 @@ const std::vector<SmallMesh>& SmallMeshes() {
       {"UtmTerrainAsDouble", UtmTerrain, kDouble, 20},
       {"IntegerCoordinates", IntegerCoordinates, kInt},
       {"ShortCoordinates", IntegerCoordinates, kShort, 14},
+      {"CutOutOfVoxels", CutOutOfVoxels, kInt},
       {"FlatMesh", FlatMesh},
       {"DenseRandomFaces", DenseRandomFaces},
       {"NonManifoldSoup", Soup, kDouble, 20},

@@ -115,6 +115,21 @@ Mesh IntegerTerrain(uint64_t columns, uint64_t rows, uint64_t seed) {
   return mesh;
 }
 
+Mesh VoxelTerrain(uint64_t columns, uint64_t rows, uint64_t seed) {
+  constexpr int64_t kVoxel = 1000;
+  Mesh mesh = IntegerTerrain(columns, rows, seed);
+  Random random(seed + 1);
+  for (Point& position : mesh.positions) {
+    const uint64_t free = random.Below(3);
+    for (uint64_t axis = 0; axis < 3; ++axis) {
+      const auto value = static_cast<int64_t>(position[axis]);
+      if (axis != free)
+        position[axis] = static_cast<double>((value + kVoxel / 2) / kVoxel * kVoxel);
+    }
+  }
+  return mesh;
+}
+
 Mesh RangeGrid(uint64_t columns, uint64_t rows, uint64_t seed) {
   Random random(seed);
   const auto seen = [&](uint64_t c, uint64_t r) {

@@ -33,13 +33,13 @@ struct CodecSettings {
   Hierarchy hierarchy = Hierarchy::kQuadric;
   Offsets offsets = Offsets::kLattice;
 
-  uint32_t subtree_vertices = 131072;  ///< largest subtree; 1 .. 16,777,216
+  uint32_t subtree_vertices = 196608;  ///< largest subtree; 1 .. 16,777,216
   /// Subtrees are cut by the metric of section 2.1. false: by Euclidean distance, which makes them
   /// compact: on dragon half the cross faces, 60 % fewer bits for seams, 0.7 % fewer in all.
   bool subtree_normals = false;
 
   // Hierarchy (quadric)
-  double length_weight = 0.01;  ///< of area x length^2 beside the quadric error; 0 .. 10
+  double length_weight = 0.015;  ///< of area x length^2 beside the quadric error; 0 .. 10
 
   // Hierarchy (section 2.1)
   uint32_t children = 4;           ///< K, children of a split; 2 .. 8

@@ -32,6 +32,7 @@ class FlatTruth final : public SubtreeTruth {
   FitShares Fit(const SubtreeLod&, std::span<const uint32_t>, const FitShares&) const override {
     return {};
   }
+  std::shared_ptr<const CoordinatePlanes> Planes() const override { return nullptr; }
   SplitOracle* oracle() override { return nullptr; }
   FaceCensus CountFaces(const Complex&) const override { return {}; }
 

@@ -29,6 +29,15 @@ EOF
 encode grid "$scans/range.ply" --bits 8 <<EOF
 $coarse
 EOF
+# Two coordinates of each vertex on planes, as of voxels.
+"$program" synth --vertices 400 -o "$scans/round.ply" -q
+"$program" encode "$scans/round.ply" -o "$scans/round.folp" -q
+"$program" decode "$scans/round.folp" -o "$scans/round.obj" -q
+awk '$1 == "v" { for (i = 2; i < 5; ++i) if (i != 2 + NR % 3) $i = int($i / 16 + 99) * 16 - 1584 } { print }' \
+  "$scans/round.obj" >"$scans/voxels.obj"
+encode planes "$scans/voxels.obj" --bits 10 <<EOF
+$coarse
+EOF
 encode exact "$scans/scan.ply" --exact --subtree-vertices 30 <<EOF
 $coarse
 EOF

@@ -21,19 +21,19 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0x8c6086ab83c93d58;
+constexpr uint64_t kDefaultHash = 0x242f5a75f9b64e4b;
 constexpr uint64_t kPaperHash = 0xff54d217bc565c95;
-constexpr uint64_t kSubtreesHash = 0x984f04b18ff37f62;
-constexpr uint64_t kRangeHash = 0xf8a9481ce53f0dc3;
-constexpr uint64_t kLeastEffortHash = 0x890381cbc8f72f2;
-constexpr uint64_t kMostEffortHash = 0xdcdc5535415a604f;
-constexpr uint64_t kVoxelHash = 0x624a2c0806a4113c;
-constexpr uint64_t kExactVoxelHash = 0xccdc26c6bd1e55bb;
-constexpr uint64_t kExactHash = 0x477132405e3800fc;
-constexpr uint64_t kExactRestsHash = 0xfa2ae1f22dcdd3e4;
+constexpr uint64_t kSubtreesHash = 0x585100460b3794da;
+constexpr uint64_t kRangeHash = 0x55bf9209a926e281;
+constexpr uint64_t kLeastEffortHash = 0xf4882b19a0d29be9;
+constexpr uint64_t kMostEffortHash = 0x472bae3b63977da9;
+constexpr uint64_t kVoxelHash = 0x403ef9f064f96e7a;
+constexpr uint64_t kExactVoxelHash = 0x825b0d31b51965b8;
+constexpr uint64_t kExactHash = 0xed90c367bb206d2c;
+constexpr uint64_t kExactRestsHash = 0xdbaf3aaa2057ebc9;
 constexpr uint64_t kOtherHash = 0x686c170d43bdc25d;
-constexpr uint64_t kSoupHash = 0x60f7bb153b2e5465;
-constexpr uint64_t kAttributesHash = 0x1af32559ddc85933;
+constexpr uint64_t kSoupHash = 0x33d5573681ee24ad;
+constexpr uint64_t kAttributesHash = 0xf0177d7f5d9cf732;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

@@ -143,8 +143,8 @@ CodecSettings WithEffort(CodecSettings settings, uint32_t effort) {
   constexpr uint32_t k = 1024;
   constexpr Preset kPresets[] = {{0, 1, 32 * k, 4, 0.015, 0.05},  {4, 1, 32 * k, 4, 0.015, 0.05},
                                  {4, 1, 64 * k, 4, 0.015, 0.05},  {3, 2, 64 * k, 4, 0.015, 0.05},
-                                 {2, 2, 256 * k, 4, 0.015, 0.05}, {2, 3, 512 * k, 4, 0.02, 0.05},
-                                 {1, 2, 256 * k, 4, 0.015, 0.05}, {1, 3, 512 * k, 4, 0.03, 0.05},
+                                 {2, 2, 256 * k, 4, 0.015, 0.05}, {2, 2, 512 * k, 4, 0.015, 0.05},
+                                 {1, 2, 512 * k, 4, 0.015, 0.05}, {1, 3, 512 * k, 4, 0.03, 0.05},
                                  {1, 3, 1024 * k, 1, 0.1, 0}};
   settings.effort = effort;
   if (effort < 1 || effort > std::size(kPresets)) return settings;

@@ -106,9 +106,11 @@ TEST_P(ErrorTest, FallsFromLayerToLayerOnDragon) {
   EncodeOptions options = Options();
   options.bits = 14;
   EXPECT_LT(ExpectErrorFalls(mesh, scan, options, 100, 1e-5), MostLeft());
-  options.bits = 12;  // the last splits' offsets are as fine as the lattice
+  // The last splits' offsets are as fine as the lattice: what follows moves vertices by parts of a
+  // step, and the mean by about a thousandth either way.
+  options.bits = 12;
   const double quarter_step = 0.25 * 0.205 / 4095;  // the mean where a normal lies along an axis
-  EXPECT_LT(ExpectErrorFalls(mesh, scan, options, 100, IsLattice() ? quarter_step : 1e-5), 1.001);
+  EXPECT_LT(ExpectErrorFalls(mesh, scan, options, 100, IsLattice() ? quarter_step : 1e-5), 1.002);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "tests/support/codec.h"
 #include "tests/support/files.h"
 #include "tests/support/ply.h"
-#include "tests/support/random.h"
 #include "tests/support/same_mesh.h"
 #include "tests/support/surfaces.h"
 
@@ -54,9 +53,10 @@ TEST(RangeGridTest, ComesBackWholeBesideAnIrregularSurface) {
 
 TEST(RangeGridTest, CostsMuchLessThanTheSamePointsWithRandomDiagonals) {
   Mesh grid = RangeGrid(120, 100, 4);
-  // Columns that share no coordinate, which would serve the other mesh too.
-  Random random(1);
-  for (Point& position : grid.positions) position[0] += static_cast<double>(random.Below(20));
+  // Smoothly bent, so that pixels share no coordinate: that would serve the other mesh too.
+  for (Point& position : grid.positions) {
+    position[0] += position[0] * (position[0] + position[1]) / 1e6;
+  }
   Mesh irregular = grid;
   // Two faces that follow each other and share an edge are a cell: every third gets its other
   // diagonal.
@@ -74,7 +74,7 @@ TEST(RangeGridTest, CostsMuchLessThanTheSamePointsWithRandomDiagonals) {
       }
     }
   }
-  EXPECT_LT(CodeLosslessly(grid, 1 << 24), 0.8 * CodeLosslessly(irregular, 1 << 24));
+  EXPECT_LT(CodeLosslessly(grid, 1 << 24), 0.75 * CodeLosslessly(irregular, 1 << 24));
 }
 
 }  // namespace

@@ -18,7 +18,6 @@ EncodeJob::EncodeJob(const std::string& input, const EncodeOptions& options,
     : options_(options), runner_(runner), progress_(progress) {
   CheckOptions(options).value();
   source_ = io::MeshSource::Open(input, options.limits).value();
-  spill_ = std::make_unique<io::SpillDirectory>(options.temporary_folder);
   if (options.attribute_bits.empty() || !KeepsAttributes(options_)) return;
   RoundedSource rounded = RoundAttributes(std::move(source_), options.attribute_bits, progress);
   source_ = std::move(rounded.source);
@@ -56,10 +55,15 @@ void EncodeJob::WeldScan(std::unique_ptr<io::SpillDirectory> spill) {
   source_ = std::move(welded);
 }
 
-void EncodeJob::CheckRoom(const io::AtomicFile& out) const {
+const io::SpillDirectory& EncodeJob::spill() {
+  if (!spill_) spill_ = std::make_unique<io::SpillDirectory>(options_.temporary_folder);
+  return *spill_;
+}
+
+void EncodeJob::CheckRoom(const io::AtomicFile& out) {
   const ExpectedScan scan{*source_, source_->vertex_count()};
   folprom::CheckRoom(
-      {spill_->path(), io::VolumeOf(spill_->path()), EstimateSpillBytes(scan, options_)},
+      {spill().path(), io::VolumeOf(spill().path()), EstimateSpillBytes(scan, options_)},
       {out.folder(), io::VolumeOf(out.folder()), EstimateFileBytes(scan, options_)});
 }
 
@@ -92,13 +96,14 @@ void EncodeJob::MeasureExactScan() {
 }
 
 void EncodeJob::Partition() {
+  const io::SpillDirectory& folder = spill();
   PartitionSettings settings;
   settings.subtree_vertices = options_.codec.subtree_vertices;
   settings.metric_a = options_.codec.metric_a;
   settings.metric_b = options_.codec.metric_b;
   settings.normal_metric = options_.codec.subtree_normals;
   if (source_->vertex_count() > 0) {
-    scan_ = PartitionScan(*source_, resolution_.lattice, settings, WorkingBytes(), runner_, *spill_,
+    scan_ = PartitionScan(*source_, resolution_.lattice, settings, WorkingBytes(), runner_, folder,
                           progress_, KeepsAttributes(options_));
   }
   source_->DropResident();

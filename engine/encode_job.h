@@ -46,7 +46,7 @@ class EncodeJob {
   /// trusted: the scan is then to be measured and partitioned.
   bool Resume(const std::string& output, folprom::Resume resume);
   /// Failure kOutput where the disks have no room for the spill and for `out`.
-  void CheckRoom(const io::AtomicFile& out) const;
+  void CheckRoom(const io::AtomicFile& out);
   void MeasureScan();
   /// The lattice of an existing file instead of the scan's own (verify).
   void UseResolution(const Resolution& resolution) { resolution_ = resolution; }
@@ -76,7 +76,9 @@ class EncodeJob {
   /// As the file has it.
   const io::MeshSource& original() const { return welded_ != nullptr ? welded_->scan() : *source_; }
   const PartitionedScan& scan() const { return *scan_; }
-  const io::SpillDirectory& spill() const { return *spill_; }
+  /// That of Resume, or else one without a name. Made when it is asked for: a job that was killed
+  /// before it found its own would leave it for good.
+  const io::SpillDirectory& spill();
   /// Most bytes that the spill folder has held so far. Nothing is removed after the partition.
   uint64_t PeakSpillBytes() const {
     const uint64_t own = std::max(spill_->SizeBytes(), scan_ ? scan_->peak_spill_bytes() : 0);

@@ -45,10 +45,11 @@ void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expect
   EXPECT_EQ(hash, expected) << "the bytes have changed; where that is meant, write\n" << line.str();
 }
 
-void ExpectHash(const char* constant, uint64_t expected, const EncodeOptions& options) {
+void ExpectHash(const char* constant, uint64_t expected, const EncodeOptions& options,
+                const Mesh& mesh = IntegerTerrain(90, 70, 1)) {
   TemporaryFolder folder;
   // Integers only, so that the mesh itself does not depend on a machine's arithmetic.
-  WritePly(folder.File("scan.ply"), IntegerTerrain(90, 70, 1), CoordinateType::kInt);
+  WritePly(folder.File("scan.ply"), mesh, CoordinateType::kInt);
   ExpectHashOf(folder.File("scan.ply"), constant, expected, options);
 }
 
@@ -85,22 +86,19 @@ TEST(GoldenTest, DefaultSettingsInSubtreesGiveTheKnownBytes) {
 }
 
 TEST(GoldenTest, RangeGridsInSubtreesGiveTheKnownBytes) {
-  TemporaryFolder folder;
-  WritePly(folder.File("scan.ply"), RangeGrid(90, 70, 1), CoordinateType::kInt);
   EncodeOptions options;
   options.bits = 15;
   options.codec.subtree_vertices = 2500;
-  ExpectHashOf(folder.File("scan.ply"), "kRangeHash", kRangeHash, options);
+  ExpectHash("kRangeHash", kRangeHash, options, RangeGrid(90, 70, 1));
 }
 
 TEST(GoldenTest, SurfacesOfVoxelsInSubtreesGiveTheKnownBytes) {
-  TemporaryFolder folder;
-  WritePly(folder.File("scan.ply"), VoxelTerrain(90, 70, 1), CoordinateType::kInt);
+  const Mesh mesh = VoxelTerrain(90, 70, 1);
   EncodeOptions options;
   options.bits = 14;
   options.codec.subtree_vertices = 2500;
-  ExpectHashOf(folder.File("scan.ply"), "kVoxelHash", kVoxelHash, options);
-  ExpectHashOf(folder.File("scan.ply"), "kExactVoxelHash", kExactVoxelHash, ExactOptions(2500));
+  ExpectHash("kVoxelHash", kVoxelHash, options, mesh);
+  ExpectHash("kExactVoxelHash", kExactVoxelHash, ExactOptions(2500), mesh);
 }
 
 TEST(GoldenTest, LeastAndMostEffortInSubtreesGiveTheKnownBytes) {

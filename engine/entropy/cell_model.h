@@ -80,6 +80,12 @@ struct CellDensity {
   }
 };
 
+/// What may have the last word on which cells a coordinate is in: this has none.
+struct NoWordOnCells {
+  uint32_t Weigh(int64_t, uint32_t probability) const { return probability; }
+  void Learn(bool) const {}
+};
+
 /// Mean size of what predictions miss by, per context, in a unit that the caller chooses.
 class ScaleTable {
  public:
@@ -109,18 +115,19 @@ class CellModel {
   explicit CellModel(std::array<uint32_t, N> sizes, uint32_t mixers = 1, bool on_planes = false)
       : decisions_(Scaled(sizes, on_planes), on_planes ? 4 * kSlots : kSlots, mixers) {}
 
-  /// Codes value in [lo, hi]. Decisions that the range makes certain cost nothing.
-  template <class Coder>
+  /// Codes value in [lo, hi]. Decisions that the range makes certain cost nothing. word: has the
+  /// last one on each.
+  template <class Coder, class Word = NoWordOnCells>
   int32_t Code(Coder& coder, const std::array<uint32_t, N>& contexts,
                const std::array<CellPrediction, P>& predictions, int32_t lo, int32_t hi,
-               int32_t value, const CellDensity& density = {}) {
+               int32_t value, const CellDensity& density = {}, Word&& word = {}) {
     int64_t a = lo, c = int64_t{hi} + 1;
     double middle =
         std::clamp(predictions[0].mean, static_cast<double>(lo), static_cast<double>(hi));
     int64_t base = static_cast<int64_t>(middle);
     Interval interval{a, c, EndAt(predictions, density, a), EndAt(predictions, density, c),
                       &density};
-    bool upper = Decide(coder, contexts, predictions, 0, base + 1, value, &interval);
+    bool upper = Decide(coder, contexts, predictions, 0, base + 1, value, word, &interval);
     uint32_t octave = 0;
     int64_t step = 1;
     // Groups of 1, 2, 4 .. cells away from the base.
@@ -128,7 +135,8 @@ class CellModel {
       int64_t at = upper ? interval.a + step : interval.c - step;
       if (at <= interval.a || at >= interval.c) break;
       uint32_t slot = 1 + (upper ? kOctaves : 0) + std::min(octave, kOctaves - 1);
-      bool further = Decide(coder, contexts, predictions, slot, at, value, &interval) == upper;
+      bool further =
+          Decide(coder, contexts, predictions, slot, at, value, word, &interval) == upper;
       if (!further) break;
       ++octave;
       step = step * 2;
@@ -136,7 +144,7 @@ class CellModel {
     uint32_t slot = 1 + 2 * kOctaves + (upper ? kOctaves : 0) + std::min(octave, kOctaves - 1);
     while (interval.c - interval.a > 1) {
       int64_t at = interval.a + (interval.c - interval.a) / 2;
-      Decide(coder, contexts, predictions, slot, at, value, &interval);
+      Decide(coder, contexts, predictions, slot, at, value, word, &interval);
       slot = kSlots - 1;
     }
     return static_cast<int32_t>(interval.a);
@@ -156,6 +164,14 @@ class CellModel {
     int64_t a, c;
     End first, last;
     const CellDensity* density;
+  };
+
+  template <class Word>
+  struct LastWord {
+    Word& word;
+    int64_t at;
+    uint32_t Weigh(uint32_t probability) { return word.Weigh(at, probability); }
+    void Learn(bool upper) { word.Learn(upper); }
   };
 
   static std::array<uint32_t, N> Scaled(std::array<uint32_t, N> sizes, bool on_planes) {
@@ -178,10 +194,10 @@ class CellModel {
   }
 
   /// Is value >= at; narrows the interval.
-  template <class Coder>
+  template <class Coder, class Word>
   bool Decide(Coder& coder, const std::array<uint32_t, N>& contexts,
               const std::array<CellPrediction, P>& predictions, uint32_t slot, int64_t at,
-              int32_t value, Interval* interval) {
+              int32_t value, Word& word, Interval* interval) {
     if (at <= interval->a) return true;
     if (at >= interval->c) return false;
     const End here = EndAt(predictions, *interval->density, at);
@@ -203,7 +219,7 @@ class CellModel {
           slot * 4 + (planes.Any(interval->a, at) ? 2 : 0) + (planes.Any(at, interval->c) ? 1 : 0);
       scaled[N - 1] = scaled[N - 1] * 4 + set % 4;
     }
-    bool upper = decisions_.Code(coder, scaled, set, value >= at, inputs);
+    bool upper = decisions_.Code(coder, scaled, set, value >= at, inputs, LastWord<Word>{word, at});
     if (upper) {
       interval->a = at;
       interval->first = here;

@@ -46,6 +46,12 @@ inline constexpr auto kRate = [] {
 }();
 }  // namespace detail
 
+/// What may have the last word on a probability: this leaves it as it is.
+struct NoLastWord {
+  uint32_t Weigh(uint32_t probability) const { return probability; }
+  void Learn(bool) const {}
+};
+
 /// N contexts that learn, E predictions from outside, and a mixer with `sets` weight vectors. With
 /// two mixers what a second one says, whose weights go by how much the contexts have seen, is
 /// averaged in, with three also a third's, whose weights go by the second context; a map then
@@ -62,10 +68,11 @@ class MixedModel {
     if (mixers > 2) others_.emplace_back(sizes[kThirdContext], Initial());
   }
 
-  /// predictions: ln(p / (1 - p)) in 1/256, p the probability of `true`; -2047 .. 2047.
-  template <class Coder>
+  /// predictions: ln(p / (1 - p)) in 1/256, p the probability of `true`; -2047 .. 2047. last_word:
+  /// turns the probability into the one that is coded, in 1/65536, and hears how it came out.
+  template <class Coder, class LastWord = NoLastWord>
   bool Code(Coder& coder, const std::array<uint32_t, N>& contexts, uint32_t set, bool bit,
-            const std::array<int32_t, E>& predictions = {}) {
+            const std::array<int32_t, E>& predictions = {}, LastWord last_word = {}) {
     std::array<uint32_t*, N> state;
     std::array<int32_t, N + E> input;
     Weights& weight = weights_[set];
@@ -90,7 +97,8 @@ class MixedModel {
     const int32_t odds = Odds(sum), mixed = Squash(odds);
     // Inside 1 .. 65535: mixed is no nearer to either end than 21.
     const int32_t probability = map_.empty() ? mixed : (mixed + map_.Refine(set, odds)) / 2;
-    bit = coder.Code(static_cast<uint32_t>(probability), bit);
+    bit = coder.Code(last_word.Weigh(static_cast<uint32_t>(probability)), bit);
+    last_word.Learn(bit);
     if (!map_.empty()) map_.Learn(bit);
     const int32_t outcome = bit ? 65536 : 0;
     Learn<kLearning>(input, outcome - mixed, &weight);

@@ -59,6 +59,7 @@ void LatticeCoder::Visit(LearnedStateVisitor& visitor) {
   tangential_scale_.Visit(visitor);
   normal_scale_.Visit(visitor);
   refine_.Visit(visitor);
+  spokes_.Visit(visitor);
   plane_model_.Visit(visitor);
   tangential_on_planes_.Visit(visitor);
   normal_on_planes_.Visit(visitor);
@@ -95,6 +96,7 @@ int32_t LatticeCoder::CodeCell(Coder& coder, const NewVertex& vertex, const Coor
                                const AxisDensity* measured, Model* model,
                                CellModel<N + 1, 2, 1>* on_planes) {
   CellDensity density{measured, at.origin, at.cell};
+  spokes_.Begin(at.axis, at.shift, at.lo, int64_t{at.hi} + 1, At(vertex.old, at.axis));
   PlaneWindow window;
   const auto below = [&](int64_t k) {
     const double power =
@@ -108,9 +110,9 @@ int32_t LatticeCoder::CodeCell(Coder& coder, const NewVertex& vertex, const Coor
     std::array<uint32_t, N + 1> more;
     std::copy(contexts.begin(), contexts.end(), more.begin());
     more[N] = plane_model_.context();
-    return on_planes->Code(coder, more, predictions, at.lo, at.hi, at.value, density);
+    return on_planes->Code(coder, more, predictions, at.lo, at.hi, at.value, density, spokes_);
   }
-  return model->Code(coder, contexts, predictions, at.lo, at.hi, at.value, density);
+  return model->Code(coder, contexts, predictions, at.lo, at.hi, at.value, density, spokes_);
 }
 
 /// Along the surface.
@@ -206,6 +208,7 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
   }
   if (has_density_) density_.Prepare(ring, vertex.ahead);
   plane_model_.Start();
+  spokes_.Start(ring);
   for (uint32_t step = 0; step < 3; ++step) {
     coder.SetMeter(step < 2 ? tangential_meter : normal_meter);
     const uint32_t axis = (ring.dominant + 1 + step) % 3;
@@ -221,6 +224,7 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
                         static_cast<double>(At(old, axis)) + 0.5};
     const int32_t value = step < 2 ? CodeAlong(coder, at, &vertex) : CodeAcross(coder, at, vertex);
     plane_model_.Learn(value);
+    spokes_.End();
     At(result, axis) = Centre(axis, value, shift);
   }
   shifts_.push_back(shifts);

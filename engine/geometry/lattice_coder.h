@@ -15,6 +15,7 @@
 #include "engine/entropy/online_regression.h"
 #include "engine/geometry/plane_model.h"
 #include "engine/geometry/ring_shape.h"
+#include "engine/geometry/spoke_model.h"
 #include "engine/geometry/tangent_density.h"
 #include "engine/mesh/types.h"
 
@@ -92,6 +93,7 @@ class LatticeCoder {
   ScaleTable normal_scale_;
   MixedModel<2> refine_;
   // The same where coordinates on planes are likelier.
+  SpokeModel spokes_;
   PlaneModel plane_model_;
   CellModel<4, 2, 1> tangential_on_planes_;
   CellModel<3, 2, 1> normal_on_planes_;

@@ -21,19 +21,20 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0x242f5a75f9b64e4b;
+constexpr uint64_t kDefaultHash = 0x566e50035b410b97;
 constexpr uint64_t kPaperHash = 0xff54d217bc565c95;
-constexpr uint64_t kSubtreesHash = 0x585100460b3794da;
-constexpr uint64_t kRangeHash = 0x55bf9209a926e281;
-constexpr uint64_t kLeastEffortHash = 0xf4882b19a0d29be9;
-constexpr uint64_t kMostEffortHash = 0x472bae3b63977da9;
-constexpr uint64_t kVoxelHash = 0x403ef9f064f96e7a;
-constexpr uint64_t kExactVoxelHash = 0x825b0d31b51965b8;
-constexpr uint64_t kExactHash = 0xed90c367bb206d2c;
-constexpr uint64_t kExactRestsHash = 0xdbaf3aaa2057ebc9;
+constexpr uint64_t kSubtreesHash = 0x29778410995e95c5;
+constexpr uint64_t kRangeHash = 0xbad115b5573a5457;
+constexpr uint64_t kLeastEffortHash = 0x13d2681ec9815d97;
+constexpr uint64_t kMostEffortHash = 0x37a119f7b9d861cd;
+constexpr uint64_t kVoxelHash = 0xe9d6da141a64d6fd;
+constexpr uint64_t kExactVoxelHash = 0xfe6d5b4c4ae28d76;
+constexpr uint64_t kSubdividedHash = 0xba286e5afb5b1553;
+constexpr uint64_t kExactHash = 0xb8652da8a17bddd1;
+constexpr uint64_t kExactRestsHash = 0x522e58f9065794aa;
 constexpr uint64_t kOtherHash = 0x686c170d43bdc25d;
-constexpr uint64_t kSoupHash = 0x33d5573681ee24ad;
-constexpr uint64_t kAttributesHash = 0xf0177d7f5d9cf732;
+constexpr uint64_t kSoupHash = 0x5100b5c75f2aa6a0;
+constexpr uint64_t kAttributesHash = 0xc7a5559168d7f163;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {
@@ -99,6 +100,13 @@ TEST(GoldenTest, SurfacesOfVoxelsInSubtreesGiveTheKnownBytes) {
   options.codec.subtree_vertices = 2500;
   ExpectHash("kVoxelHash", kVoxelHash, options, mesh);
   ExpectHash("kExactVoxelHash", kExactVoxelHash, ExactOptions(2500), mesh);
+}
+
+TEST(GoldenTest, SubdividedSurfacesInSubtreesGiveTheKnownBytes) {
+  EncodeOptions options;
+  options.bits = 14;
+  options.codec.subtree_vertices = 2500;
+  ExpectHash("kSubdividedHash", kSubdividedHash, options, SubdividedTerrain(45, 35, 1));
 }
 
 TEST(GoldenTest, LeastAndMostEffortInSubtreesGiveTheKnownBytes) {

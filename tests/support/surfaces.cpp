@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "tests/support/random.h"
 
@@ -125,6 +127,30 @@ Mesh VoxelTerrain(uint64_t columns, uint64_t rows, uint64_t seed) {
       const auto value = static_cast<int64_t>(position[axis]);
       if (axis != free)
         position[axis] = static_cast<double>((value + kVoxel / 2) / kVoxel * kVoxel);
+    }
+  }
+  return mesh;
+}
+
+Mesh SubdividedTerrain(uint64_t columns, uint64_t rows, uint64_t seed) {
+  const Mesh coarse = IntegerTerrain(columns, rows, seed);
+  Mesh mesh;
+  for (const Point& at : coarse.positions)
+    mesh.positions.push_back({2 * at[0], 2 * at[1], 2 * at[2]});
+  std::map<std::pair<uint64_t, uint64_t>, uint64_t> middles;
+  const auto middle = [&](uint64_t a, uint64_t b) {
+    const auto [found, is_new] =
+        middles.try_emplace({std::min(a, b), std::max(a, b)}, mesh.positions.size());
+    if (is_new) {
+      const Point &p = coarse.positions[a], &q = coarse.positions[b];
+      mesh.positions.push_back({p[0] + q[0], p[1] + q[1], p[2] + q[2]});
+    }
+    return found->second;
+  };
+  for (const auto& [a, b, c] : coarse.faces) {
+    const uint64_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const Triple& face : {Triple{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+      mesh.faces.push_back(face);
     }
   }
   return mesh;

@@ -24,6 +24,9 @@ Mesh IntegerTerrain(uint64_t columns, uint64_t rows, uint64_t seed);
 /// is cut out of voxels.
 Mesh VoxelTerrain(uint64_t columns, uint64_t rows, uint64_t seed);
 
+/// An integer terrain whose faces were each cut into four, at the middles of the edges.
+Mesh SubdividedTerrain(uint64_t columns, uint64_t rows, uint64_t seed);
+
 /// A depth image of columns x rows pixels made with integers only: smooth, with noise in the depth,
 /// a jump in the middle that no face spans, holes and lost pixels. Every vertex has a face.
 Mesh RangeGrid(uint64_t columns, uint64_t rows, uint64_t seed);

@@ -68,11 +68,12 @@ bool DueCoder::IsDue(const SubtreeTruth& truth, uint32_t set) const {
   return std::sqrt(std::sqrt(fourth)) >= least_spacing_;
 }
 
-DueSigns DueCoder::SignsOf(SubtreeLod& lod, uint32_t set, double spacing) const {
+DueSigns DueCoder::SignsOf(const SubtreeLod& lod, uint32_t set, double spacing) {
   DueSigns signs;
   signs.spacing = spacing / least_spacing_;
   signs.scale = static_cast<double>(lod.sets[set].scale) / least_spacing_;
-  const RingShape ring = lod.ShapeAround(set);
+  lod.Measure(set, &star_);
+  const RingPlane ring = lod.PlaneAt(star_);
   const double fourth = ring.spacing * ring.spacing * ring.height_range * settings_.longest;
   signs.distortion = std::sqrt(std::sqrt(fourth)) / least_spacing_;
   signs.asked = lod.sets[set].asked + 1 == step_;

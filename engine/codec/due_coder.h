@@ -36,7 +36,7 @@ class DueCoder {
  private:
   bool IsDue(const SubtreeTruth& truth, uint32_t set) const;
   bool Pays(const SubtreeLod& lod, std::span<const uint32_t> open, const SubtreeTruth& truth) const;
-  DueSigns SignsOf(SubtreeLod& lod, uint32_t set, double spacing) const;
+  DueSigns SignsOf(const SubtreeLod& lod, uint32_t set, double spacing);
 
   DueSettings settings_;
   uint32_t step_ = 0;  ///< the first is 1
@@ -44,6 +44,7 @@ class DueCoder {
   bool asking_ = false;
   MixedModel<1> still_asking_;
   DueModel model_;
+  SetStar star_;  ///< scratch
 };
 
 }  // namespace folprom

@@ -4,27 +4,28 @@
 
 namespace folprom {
 
-LeafSigns LeafSignsOf(SubtreeLod& lod, uint32_t set, double spacing) {
+LeafSigns LeafSignsOf(const SubtreeLod& lod, const SetStar& star, double spacing) {
   LeafSigns signs;
   signs.spacing = spacing;
-  signs.scale = static_cast<double>(lod.sets[set].scale);
-  const Complex& complex = lod.complex;
-  for (const auto& [other, half_edge] : complex.Spokes(set)) {
-    if (!lod.sets[other].is_leaf) {
-      ++signs.others;
-      continue;
-    }
+  signs.scale = static_cast<double>(lod.sets[star.set].scale);
+  const auto spokes = lod.complex.Spokes(star.set);
+  for (size_t n = 0; n < spokes.size(); ++n) {
+    const SetRecord& other = lod.sets[spokes[n].target];
+    if (!other.is_leaf) continue;
     ++signs.leaves;
-    const Vector3 d = Difference(lod.positions[other], lod.positions[set]);
-    signs.leaf_distance = signs.leaf_distance + std::sqrt(Dot(d, d));
-    signs.leaf_spacing = signs.leaf_spacing + static_cast<double>(lod.sets[other].spacing);
+    signs.leaf_distance = signs.leaf_distance + star.ring[n].z_length[1];
+    signs.leaf_spacing = signs.leaf_spacing + static_cast<double>(other.spacing);
   }
+  signs.others = static_cast<uint32_t>(spokes.size()) - signs.leaves;
   if (signs.leaves > 0) {
     signs.leaf_distance = signs.leaf_distance / signs.leaves;
     signs.leaf_spacing = signs.leaf_spacing / signs.leaves;
   }
   // Neighbours at the same place have no height either.
-  signs.bend = spacing > 0 ? lod.HeightRange(set) / spacing : 0;
+  const double length = std::sqrt(Dot(star.normal, star.normal));
+  if (spacing > 0 && length > 0) {
+    signs.bend = HeightRange(star.ring, star.normal) / length / spacing;
+  }
   return signs;
 }
 

@@ -9,6 +9,6 @@
 namespace folprom {
 
 /// spacing: of the set now, lattice units.
-LeafSigns LeafSignsOf(SubtreeLod& lod, uint32_t set, double spacing);
+LeafSigns LeafSignsOf(const SubtreeLod& lod, const SetStar& star, double spacing);
 
 }  // namespace folprom

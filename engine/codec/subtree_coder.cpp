@@ -167,7 +167,8 @@ uint32_t SubtreeCoder::CodeChildCount(Coder& coder, uint32_t set, double spacing
     *hint = grid_->Expect(lod_, set);
     return grid_->CodeLeaf(coder, lod_, set, spacing, *hint, count == 1) ? 1 : 2;
   }
-  const LeafSigns signs = LeafSignsOf(lod_, set, spacing);
+  lod_.Measure(set, &star_);
+  const LeafSigns signs = LeafSignsOf(lod_, star_, spacing);
   if (leaf_model_.Code(coder, signs, count == 1)) return 1;
   if (lattice_coder_) return 2;
   return cylinder_children_->CodeCount(coder, {spacing, signs.leaves, signs.others}, count);
@@ -217,7 +218,9 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, const GridHint& hin
     position = grid_->CodePosition(coder, kept, hint, position);
     lattice_coder_->AddExact();
   } else {
-    position = lattice_coder_->CodeNew(coder, kept, lod_.ShapeAround(set), precision_.precision(),
+    // Unless it was just asked whether the set is a leaf, which leaves all around it as it was.
+    if (grid_ || lod_.size() == 1) lod_.Measure(set, &star_);
+    position = lattice_coder_->CodeNew(coder, kept, lod_.ShapeAround(star_), precision_.precision(),
                                        position, &meters->offsets.rho, &meters->offsets.z);
   }
   const uint32_t added =
@@ -311,8 +314,9 @@ void SubtreeCoder::CodeLatticeRefinement(Coder& coder, const SubtreeTruth* truth
     if (!lattice_coder_->IsCoarser(vertex, precision_.precision())) continue;
     Int3 position;
     if constexpr (Coder::kEncoding) position = truth->VertexPosition(vertex);
+    lod_.Measure(vertex, &star_);
     lod_.positions[vertex] =
-        lattice_coder_->Refine(coder, vertex, lod_.positions[vertex], lod_.ShapeAround(vertex),
+        lattice_coder_->Refine(coder, vertex, lod_.positions[vertex], lod_.PlaneAt(star_),
                                precision_.precision(), position);
   }
 }

@@ -143,6 +143,7 @@ class SubtreeCoder {
   };
   Share share_;
   std::vector<uint32_t> family_, asked_;  // scratch
+  SetStar star_;  ///< of the set under way
   size_t refined_ = 0;  ///< the first so many vertices have the precision of this step
 
   SplitCoder split_coder_;

@@ -1,20 +1,14 @@
 #include "engine/codec/subtree_lod.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "engine/connectivity/area_normal.h"
-
 namespace folprom {
 
 double SubtreeLod::Spacing(uint32_t set) const {
   const auto spokes = complex.Spokes(set);
   if (spokes.empty()) return static_cast<double>(sets[set].scale);
   double sum = 0;
-  const Int3& centre = positions[set];
+  const LanePoint centre(positions[set]);
   for (const auto& spoke : spokes) {
-    const Vector3 d = Difference(positions[spoke.target], centre);
-    sum = sum + std::sqrt(Dot(d, d));
+    sum = sum + SpokeBetween(centre, LanePoint(positions[spoke.target])).z_length[1];
   }
   return sum / static_cast<double>(spokes.size());
 }
@@ -36,27 +30,36 @@ const std::vector<Int3>& SubtreeLod::Ring(uint32_t set) {
   return ring_;
 }
 
-RingShape SubtreeLod::ShapeAround(uint32_t set) {
-  const Int3& centre = positions[set];
-  FanSums fan;
-  for (const uint32_t corner : complex.Corners(set)) {
-    const auto [a, b] = complex.Opposite(corner);
-    fan.AddFace(Difference(positions[a], centre), Difference(positions[b], centre));
+void SubtreeLod::Measure(uint32_t set, SetStar* star) const {
+  const auto spokes = complex.Spokes(set);
+  const auto corners = complex.Corners(set);
+  if (star->all_spokes.size() < spokes.size()) star->all_spokes.resize(spokes.size());
+  if (star->all_faces.size() < corners.size()) star->all_faces.resize(corners.size());
+  star->set = set;
+  star->ring = std::span(star->all_spokes).first(spokes.size());
+  star->faces = std::span(star->all_faces).first(corners.size());
+  const LanePoint centre(positions[set]);
+  for (size_t n = 0; n < spokes.size(); ++n) {
+    star->all_spokes[n] = SpokeBetween(centre, LanePoint(positions[spokes[n].target]));
   }
-  return MeasureRing(centre, Ring(set), fan, static_cast<double>(sets[set].scale));
+  Pair normal_xy = Both(0);
+  double normal_z = 0;
+  for (size_t n = 0; n < corners.size(); ++n) {
+    const auto [a, b] = complex.Opposite(corners[n]);
+    const LanePoint to_a(positions[a]), to_b(positions[b]);
+    const Pair z = Pair{to_a.z, to_b.z} - Both(centre.z);
+    const FanFace face(to_a.xy - centre.xy, to_b.xy - centre.xy, z);
+    normal_xy = normal_xy + face.cross_xy;
+    normal_z = normal_z + face.cross_z;
+    star->all_faces[n] = face;
+  }
+  star->normal = {normal_xy[0], normal_xy[1], normal_z};
 }
 
-double SubtreeLod::HeightRange(uint32_t set) const {
-  const Int3& centre = positions[set];
-  const Vector3 normal = AreaNormal(complex, positions, set);
-  double low = 0, high = 0;
-  for (const auto& spoke : complex.Spokes(set)) {
-    const double height = Dot(Difference(positions[spoke.target], centre), normal);
-    low = std::min(low, height);
-    high = std::max(high, height);
-  }
-  const double length = std::sqrt(Dot(normal, normal));
-  return length > 0 ? (high - low) / length : 0;
+RingShape SubtreeLod::ShapeAround(const SetStar& star) const {
+  FanSums fan;
+  for (const FanFace& face : star.faces) fan.AddFace(face);
+  return MeasureRing(star.ring, fan, static_cast<double>(sets[star.set].scale));
 }
 
 }  // namespace folprom

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/connectivity/complex.h"
@@ -21,6 +22,17 @@ struct SetRecord {
   bool is_leaf = false;     ///< a single vertex
 };
 
+/// What surrounds a set, measured once for all that goes by it.
+struct SetStar {
+  uint32_t set = kNone;
+  std::span<const RingSpoke> ring;  ///< in the order of its spokes
+  std::span<const FanFace> faces;   ///< in the order of its corners
+  Vector3 normal{0, 0, 0};          ///< sum over the faces, each twice as long as its face is large
+  // What the lists above are part of; never smaller than it was.
+  std::vector<RingSpoke> all_spokes;
+  std::vector<FanFace> all_faces;
+};
+
 /// The three lists go by the number of the LOD vertex.
 class SubtreeLod {
  public:
@@ -38,9 +50,11 @@ class SubtreeLod {
   double Spacing(uint32_t set) const;
   /// Positions of the neighbours, valid until the next call.
   const std::vector<Int3>& Ring(uint32_t set);
-  RingShape ShapeAround(uint32_t set);
-  /// Of the set and its neighbours across the surface, 0 without faces; lattice units.
-  double HeightRange(uint32_t set) const;
+  void Measure(uint32_t set, SetStar* star) const;
+  RingPlane PlaneAt(const SetStar& star) const {
+    return MeasurePlane(star.ring, star.normal, static_cast<double>(sets[star.set].scale));
+  }
+  RingShape ShapeAround(const SetStar& star) const;
 
  private:
   std::vector<Int3> ring_;

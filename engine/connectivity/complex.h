@@ -89,9 +89,10 @@ class Complex {
   uint32_t VertexOf(uint32_t corner) const { return corners_[corner].vertex; }
   /// The two others of the corner's face, in the order of its orientation.
   std::array<uint32_t, 2> Opposite(uint32_t corner) const {
+    // Places are as good as random: a table is read where a branch would be guessed wrongly.
+    constexpr std::array<uint32_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
     const uint32_t first = corner / 3 * 3, place = corner - first;
-    return {corners_[first + (place == 2 ? 0 : place + 1)].vertex,
-            corners_[first + (place == 0 ? 2 : place - 1)].vertex};
+    return {corners_[first + kNext[place]].vertex, corners_[first + kPrevious[place]].vertex};
   }
   /// The three vertices of a face in the order of its orientation.
   Face face(uint32_t index) const {

@@ -250,7 +250,7 @@ bool LatticeCoder::CodeHalf(Coder& coder, uint32_t axis, uint32_t lean_context, 
 }
 
 template <class Coder>
-Int3 LatticeCoder::Refine(Coder& coder, uint32_t vertex, const Int3& known, const RingShape& ring,
+Int3 LatticeCoder::Refine(Coder& coder, uint32_t vertex, const Int3& known, const RingPlane& ring,
                           LatticePrecision precision, const Int3& truth) {
   Int3 result = known;
   Shifts& shifts = shifts_[vertex];
@@ -284,7 +284,7 @@ Int3 LatticeCoder::Refine(Coder& coder, uint32_t vertex, const Int3& known, cons
 #define FOLPROM_INSTANTIATE(Coder)                                                                 \
   template Int3 LatticeCoder::CodeNew<Coder>(Coder&, const Int3&, const RingShape&,                \
                                              LatticePrecision, const Int3&, uint64_t*, uint64_t*); \
-  template Int3 LatticeCoder::Refine<Coder>(Coder&, uint32_t, const Int3&, const RingShape&,       \
+  template Int3 LatticeCoder::Refine<Coder>(Coder&, uint32_t, const Int3&, const RingPlane&,       \
                                             LatticePrecision, const Int3&);
 FOLPROM_INSTANTIATE(BitEncoder)
 FOLPROM_INSTANTIATE(BitDecoder)

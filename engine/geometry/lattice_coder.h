@@ -56,7 +56,7 @@ class LatticeCoder {
   bool IsCoarser(uint32_t vertex, LatticePrecision precision) const;
   /// Codes the bits of a vertex that are missing at this precision; returns its position.
   template <class Coder>
-  Int3 Refine(Coder& coder, uint32_t vertex, const Int3& known, const RingShape& ring,
+  Int3 Refine(Coder& coder, uint32_t vertex, const Int3& known, const RingPlane& ring,
               LatticePrecision precision, const Int3& truth);
   void Visit(LearnedStateVisitor& visitor);
 

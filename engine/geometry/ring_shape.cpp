@@ -3,37 +3,49 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "engine/entropy/least_squares.h"
 
 namespace folprom {
 namespace {
 
-void FitBend(RingShape* shape, std::span<const Vector3> local) {
+/// The ways to the neighbours along the tangent plane, and their heights over it.
+struct LocalPoint {
+  Pair uv;
+  double height;
+};
+
+void FitBend(RingShape* shape, std::span<const LocalPoint> local) {
   // Least squares for (uu, uv, vv) in units of the spacing, with a ridge that keeps thin rings
-  // tame.
-  std::array<std::array<double, 4>, 3> a{};
-  double unit = shape->spacing > 0 ? 1 / shape->spacing : 0;
-  for (const Vector3& p : local) {
-    double u = p[0] * unit, v = p[1] * unit, h = p[2] * unit;
-    double row[3] = {u * u, u * v, v * v};
-    for (size_t i = 0; i < 3; ++i) {
-      for (size_t j = 0; j < 3; ++j) a[i][j] = a[i][j] + row[i] * row[j];
-      a[i][3] = a[i][3] + row[i] * h;
-    }
+  // tame. The sums are those of the products of a row of the system: uu, uv, vv, height.
+  const double unit = 1 / shape->spacing;
+  Pair first = Both(0), first_rest = Both(0), second = Both(0), heights = Both(0);
+  double third = 0;
+  for (const LocalPoint& p : local) {
+    const Pair scaled = p.uv * Both(unit), squares = scaled * scaled;
+    const double h = p.height * unit, across = scaled[0] * scaled[1];
+    const Pair row{squares[0], across}, rest{squares[1], h};
+    first = first + Both(row[0]) * row;
+    first_rest = first_rest + Both(row[0]) * rest;
+    second = second + Both(across) * Pair{across, rest[0]};
+    heights = heights + Pair{across, rest[0]} * Both(h);
+    third = third + rest[0] * rest[0];
   }
   constexpr double kRidge = 0.1;
-  for (size_t i = 0; i < 3; ++i) a[i][i] = a[i][i] + kRidge;
-  SolvePositive(a, &shape->bend);
+  SolvePositive<3>({{{first[0] + kRidge, first[1], first_rest[0], first_rest[1]},
+                     {first[1], second[0] + kRidge, second[1], heights[0]},
+                     {first_rest[0], second[1], third + kRidge, heights[1]}}},
+                   &shape->bend);
   for (double& value : shape->bend) value = value * unit;
 }
 
-Vector3 AnyNormal(std::span<const Vector3> ring, const Vector3& mean) {
+Vector3 AnyNormal(std::span<const RingSpoke> ring, const Vector3& mean) {
   // Without faces: across the two that span most of those which follow each other in the list.
   Vector3 best{0, 0, 0};
   double most = 0;
   for (size_t i = 0; i + 1 < ring.size(); ++i) {
-    Vector3 cross = Cross(ring[i], ring[i + 1]);
+    Vector3 cross = Cross(ring[i].way(), ring[i + 1].way());
     double size = Dot(cross, cross);
     if (size > most) {
       most = size;
@@ -45,22 +57,66 @@ Vector3 AnyNormal(std::span<const Vector3> ring, const Vector3& mean) {
   return Dot(cross, cross) > 0 ? Cross(cross, mean) : Vector3{1, 0, 0};
 }
 
-}  // namespace
-
-void FanSums::AddFace(const Vector3& a, const Vector3& b) {
-  Vector3 cross = Cross(a, b);
-  double size = std::sqrt(Dot(cross, cross));
-  Vector3 side{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  double length = std::sqrt(Dot(side, side));
-  area = area + size;
-  rim = rim + length;
-  for (size_t i = 0; i < 3; ++i) {
-    normal[i] = normal[i] + cross[i];
-    double sum = a[i] + b[i];
-    area_centre[i] = area_centre[i] + size * sum / 3;
-    rim_centre[i] = rim_centre[i] + length * sum / 2;
-  }
+Vector3 Divided(Pair xy, double z, double by) {
+  const Pair parts = xy / Both(by);
+  return {parts[0], parts[1], z / by};
 }
+
+/// Directions and reach.
+void WeighSpokes(std::span<const RingSpoke> ring, RingShape* shape) {
+  const Pair count = Both(static_cast<double>(ring.size()));
+  Pair direction = Both(0), reach = Both(0), both_z = Both(0);
+  for (const RingSpoke& spoke : ring) {
+    const double distance = spoke.z_length[1];
+    Pair weights =
+        Pair{shape->spacing, distance} / Pair{distance, shape->spacing} / count;  // near, far
+    if (!(distance > 0)) weights[0] = 0;
+    direction = direction + Both(weights[0]) * spoke.xy;
+    reach = reach + Both(weights[1]) * spoke.xy;
+    both_z = both_z + weights * Both(spoke.z_length[0]);
+  }
+  shape->direction = {direction[0], direction[1], both_z[0]};
+  shape->reach = {reach[0], reach[1], both_z[1]};
+}
+
+void MeasureCovariance(std::span<const RingSpoke> ring, RingShape* shape) {
+  const Pair count = Both(static_cast<double>(ring.size()));
+  const Pair mean_xy{shape->mean[0], shape->mean[1]};
+  Pair xx_xy = Both(0), xz_yy = Both(0), yz_zz = Both(0);
+  for (const RingSpoke& spoke : ring) {
+    const Pair xy = spoke.xy - mean_xy;
+    const Pair z = Both(spoke.z_length[0] - shape->mean[2]);
+    xx_xy = xx_xy + Both(xy[0]) * xy / count;
+    xz_yy = xz_yy + xy * FirstSecond(z, xy) / count;
+    yz_zz = yz_zz + SecondSecond(xy, z) * z / count;
+  }
+  shape->covariance = {xx_xy[0], xx_xy[1], xz_yy[0], xz_yy[1], yz_zz[0], yz_zz[1]};
+}
+
+/// The quadric over the tangent plane.
+void MeasureBend(std::span<const RingSpoke> ring, RingShape* shape) {
+  shape->tangent = TangentAxis(shape->normal);
+  const Vector3 &normal = shape->normal, &tangent = shape->tangent;
+  const Vector3 side = Cross(normal, tangent);
+  const Pair u_x{tangent[0], side[0]}, u_y{tangent[1], side[1]}, u_z{tangent[2], side[2]};
+  std::array<LocalPoint, RingShape::kMostSpokes> local;
+  for (size_t n = 0; n < ring.size(); ++n) {
+    const RingSpoke& spoke = ring[n];
+    const Pair z = Both(spoke.z_length[0]);
+    local[n].uv = Both(spoke.xy[0]) * u_x + Both(spoke.xy[1]) * u_y + z * u_z;
+    local[n].height = HeightOf(spoke, normal);
+  }
+  const std::span<const LocalPoint> points(local.data(), ring.size());
+  FitBend(shape, points);
+  double squares = 0;
+  for (const LocalPoint& p : points) {
+    const double left = p.height - shape->HeightAt(p.uv[0], p.uv[1]);
+    squares = squares + left * left;
+  }
+  shape->fit_error = std::sqrt(squares / static_cast<double>(ring.size()));
+}
+
+}  // namespace
 
 double RingShape::MeetQuadric(const Vector3& offset) const {
   size_t k = dominant, i = (k + 1) % 3, j = (k + 2) % 3;
@@ -76,83 +132,63 @@ double RingShape::MeetQuadric(const Vector3& offset) const {
   return std::clamp(along, level - most, level + most);
 }
 
-RingShape MeasureRing(const Int3& vertex, std::span<const Int3> ring, const FanSums& fan,
-                      double scale) {
-  RingShape shape;
-  shape.count = static_cast<uint32_t>(ring.size());
-  std::array<Vector3, 32>& around = shape.around;
-  size_t used = std::min(ring.size(), around.size());
-  double distances = 0;
-  for (size_t n = 0; n < used; ++n) {
-    around[n] = Difference(ring[n], vertex);
-    distances = distances + std::sqrt(Dot(around[n], around[n]));
-    for (size_t i = 0; i < 3; ++i) shape.mean[i] = shape.mean[i] + around[n][i];
+RingPlane MeasurePlane(std::span<const RingSpoke> ring, const Vector3& normal, double scale) {
+  RingPlane plane;
+  plane.count = static_cast<uint32_t>(ring.size());
+  if (ring.empty()) {
+    plane.spacing = plane.height_range = scale > 0 ? scale : 1;
+    return plane;
   }
-  if (used == 0) {
-    if (!(scale > 0)) scale = 1;
-    shape.spacing = scale;
-    double share = scale * scale / 3;
+  ring = ring.first(std::min(ring.size(), RingShape::kMostSpokes));
+  Pair xy = Both(0), z_length = Both(0);
+  for (const RingSpoke& spoke : ring) {
+    xy = xy + spoke.xy;
+    z_length = z_length + spoke.z_length;
+  }
+  const auto count = static_cast<double>(ring.size());
+  plane.mean = Divided(xy, z_length[0], count);
+  plane.spacing = z_length[1] / count;
+  if (!(plane.spacing > 0)) plane.spacing = 1;
+  plane.normal = Dot(normal, normal) > 0 ? normal : AnyNormal(ring, plane.mean);
+  const double length = std::sqrt(Dot(plane.normal, plane.normal));
+  for (double& value : plane.normal) value = value / length;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const double size = plane.normal[i] * plane.normal[i];
+    if (i == 0 || size > plane.normal[plane.dominant] * plane.normal[plane.dominant]) {
+      plane.dominant = i;
+    }
+  }
+  plane.height_range = HeightRange(ring, plane.normal);
+  return plane;
+}
+
+double HeightRange(std::span<const RingSpoke> ring, const Vector3& axis) {
+  double low = 0, high = 0;
+  for (const RingSpoke& spoke : ring) {
+    const double height = HeightOf(spoke, axis);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return high - low;
+}
+
+RingShape MeasureRing(std::span<const RingSpoke> ring, const FanSums& fan, double scale) {
+  RingShape shape;
+  static_cast<RingPlane&>(shape) = MeasurePlane(ring, fan.normal(), scale);
+  if (ring.empty()) {
+    const double share = shape.spacing * shape.spacing / 3;
     shape.covariance = {share, 0, 0, share, 0, share};
-    shape.fit_error = shape.height_range = scale;
+    shape.fit_error = shape.spacing;
     return shape;
   }
-  double count = static_cast<double>(used);
-  shape.spacing = distances / count;
-  if (!(shape.spacing > 0)) shape.spacing = 1;
-  for (size_t n = 0; n < used; ++n) {
-    double distance = std::sqrt(Dot(around[n], around[n]));
-    double near = distance > 0 ? shape.spacing / distance / count : 0;
-    double far = distance / shape.spacing / count;
-    for (size_t i = 0; i < 3; ++i) {
-      shape.direction[i] = shape.direction[i] + near * around[n][i];
-      shape.reach[i] = shape.reach[i] + far * around[n][i];
-    }
-  }
-  for (double& value : shape.mean) value = value / count;
-  for (size_t i = 0; i < 3; ++i) {
-    shape.area_centre[i] = fan.area > 0 ? fan.area_centre[i] / fan.area : shape.mean[i];
-    shape.rim_centre[i] = fan.rim > 0 ? fan.rim_centre[i] / fan.rim : shape.mean[i];
-  }
-  for (size_t n = 0; n < used; ++n) {
-    size_t k = 0;
-    for (size_t i = 0; i < 3; ++i) {
-      for (size_t j = i; j < 3; ++j) {
-        shape.covariance[k] = shape.covariance[k] + (around[n][i] - shape.mean[i]) *
-                                                        (around[n][j] - shape.mean[j]) / count;
-        ++k;
-      }
-    }
-  }
-  std::span<const Vector3> near(around.data(), used);
-  shape.normal = Dot(fan.normal, fan.normal) > 0 ? fan.normal : AnyNormal(near, shape.mean);
-  double length = std::sqrt(Dot(shape.normal, shape.normal));
-  for (double& value : shape.normal) value = value / length;
-  for (uint32_t i = 0; i < 3; ++i) {
-    const double size = shape.normal[i] * shape.normal[i];
-    if (i == 0 || size > shape.normal[shape.dominant] * shape.normal[shape.dominant]) {
-      shape.dominant = i;
-    }
-  }
-  const Vector3 tangent = TangentAxis(shape.normal);
-  shape.tangent = tangent;
-  Vector3 side = Cross(shape.normal, tangent);
-  double low = 0, high = 0;
-  std::array<Vector3, 32> local;
-  for (size_t n = 0; n < used; ++n) {
-    Vector3 d = around[n];
-    local[n] = {Dot(d, tangent), Dot(d, side), Dot(d, shape.normal)};
-    low = std::min(low, local[n][2]);
-    high = std::max(high, local[n][2]);
-  }
-  shape.height_range = high - low;
-  near = std::span<const Vector3>(local.data(), used);
-  FitBend(&shape, near);
-  double squares = 0;
-  for (const Vector3& p : near) {
-    double left = p[2] - shape.HeightAt(p[0], p[1]);
-    squares = squares + left * left;
-  }
-  shape.fit_error = std::sqrt(squares / count);
+  ring = ring.first(std::min(ring.size(), RingShape::kMostSpokes));
+  std::copy(ring.begin(), ring.end(), shape.spokes.begin());
+  const double area = fan.area_rim[0], rim = fan.area_rim[1];
+  shape.area_centre = area > 0 ? Divided(fan.area_centre_xy, fan.centre_z[0], area) : shape.mean;
+  shape.rim_centre = rim > 0 ? Divided(fan.rim_centre_xy, fan.centre_z[1], rim) : shape.mean;
+  WeighSpokes(ring, &shape);
+  MeasureCovariance(ring, &shape);
+  MeasureBend(ring, &shape);
   return shape;
 }
 

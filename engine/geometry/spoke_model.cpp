@@ -37,7 +37,7 @@ void SpokeModel::Start(const RingShape& ring) {
   std::array<std::array<float, kMostPlaces>, 3> at{};
   float sum = 0;
   for (uint32_t n = 0; n < neighbours; ++n) {
-    const Vector3& d = ring.around[n];
+    const Vector3 d = ring.spokes[n].way();
     const double length = std::sqrt(Dot(d, d)) * per_spacing;
     const uint32_t bucket = static_cast<uint32_t>(std::min(length, kLengths - 1.0));
     for (uint32_t f = 0; f < kFractions; ++f) {

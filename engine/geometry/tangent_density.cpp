@@ -81,7 +81,7 @@ void TangentDensity::Prepare(const RingShape& ring, const Vector3& ahead) {
   neighbours_ = std::min(ring.count, kMostNeighbours);
   std::array<std::array<float, 2>, kMostNeighbours> place;
   for (uint32_t n = 0; n < neighbours_; ++n) {
-    const Vector3& d = ring.around[n];
+    const Vector3 d = ring.spokes[n].way();
     const float u = static_cast<float>(Dot(d, along) * inverse);
     const float v = static_cast<float>(Dot(d, aside_axis_) * inverse);
     place[n] = {u, v};

@@ -11,6 +11,10 @@
 namespace folprom {
 namespace {
 
+FanFace FaceOf(const RingSpoke& a, const RingSpoke& b) {
+  return {a.xy, b.xy, Pair{a.z_length[0], b.z_length[0]}};
+}
+
 /// A vertex to code: beside which, with what ring, how precisely.
 struct Split {
   Int3 old, truth;
@@ -42,15 +46,16 @@ Case RandomCase(uint64_t seed, const Int3& lo, const Int3& hi, uint32_t most_shi
     split.old = any();
     const int32_t reach = 1 << random() % 29;
     split.truth = i % 10 == 0 ? any() : (i % 17 == 0 ? split.old : beside(split.old, reach));
-    std::vector<Int3> ring;
+    std::vector<RingSpoke> ring;
     for (uint64_t n = i % 9 == 0 ? 40 : random() % 9; n > 0; --n) {
-      ring.push_back(i % 23 == 0 ? split.old : beside(split.old, reach));
+      const Int3 neighbour = i % 23 == 0 ? split.old : beside(split.old, reach);
+      ring.push_back(SpokeBetween(LanePoint(split.old), LanePoint(neighbour)));
     }
     FanSums fan;
     for (size_t n = 0; n + 1 < ring.size(); ++n) {
-      fan.AddFace(Difference(ring[n], split.old), Difference(ring[n + 1], split.old));
+      fan.AddFace(FaceOf(ring[n], ring[n + 1]));
     }
-    split.ring = MeasureRing(split.old, ring, fan, static_cast<double>(reach));
+    split.ring = MeasureRing(ring, fan, static_cast<double>(reach));
     split.precision.tangential = static_cast<uint32_t>(random() % (most_shift + 1));
     split.precision.normal = static_cast<uint32_t>(random() % (most_shift + 1));
     result.splits.push_back(split);

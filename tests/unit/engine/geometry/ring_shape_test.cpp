@@ -12,20 +12,24 @@ namespace {
 
 const Int3 kVertex{1 << 20, 1 << 20, 1 << 20};
 
+FanFace FaceOf(const RingSpoke& a, const RingSpoke& b) {
+  return {a.xy, b.xy, Pair{a.z_length[0], b.z_length[0]}};
+}
+
 /// The ring and its closed fan around kVertex.
 struct Ring {
-  std::vector<Int3> around;
+  std::vector<RingSpoke> around;
   FanSums fan;
 };
 
 Ring RingOf(const std::vector<Int3>& offsets) {
   Ring ring;
   for (const Int3& d : offsets) {
-    ring.around.push_back({kVertex.x + d.x, kVertex.y + d.y, kVertex.z + d.z});
+    const Int3 neighbour{kVertex.x + d.x, kVertex.y + d.y, kVertex.z + d.z};
+    ring.around.push_back(SpokeBetween(LanePoint(kVertex), LanePoint(neighbour)));
   }
   for (size_t i = 0; i < offsets.size(); ++i) {
-    ring.fan.AddFace(Difference(ring.around[i], kVertex),
-                     Difference(ring.around[(i + 1) % offsets.size()], kVertex));
+    ring.fan.AddFace(FaceOf(ring.around[i], ring.around[(i + 1) % offsets.size()]));
   }
   return ring;
 }
@@ -48,7 +52,7 @@ void ExpectFinite(const RingShape& shape) {
 
 TEST(RingShape, FlatRingHasItsSpacingAndNoBend) {
   const Ring ring = RingOf({{100, 0, 0}, {0, 100, 0}, {-100, 0, 0}, {0, -100, 0}});
-  const RingShape shape = MeasureRing(kVertex, ring.around, ring.fan, 1);
+  const RingShape shape = MeasureRing(ring.around, ring.fan, 1);
   ExpectFinite(shape);
   EXPECT_EQ(shape.count, 4u);
   EXPECT_DOUBLE_EQ(shape.spacing, 100);
@@ -72,7 +76,7 @@ TEST(RingShape, FlatRingHasItsSpacingAndNoBend) {
 TEST(RingShape, TiltedRingIsMetInItsPlane) {
   // z = x / 2.
   const Ring ring = RingOf({{100, 0, 50}, {0, 100, 0}, {-100, 0, -50}, {0, -100, 0}});
-  const RingShape shape = MeasureRing(kVertex, ring.around, ring.fan, 1);
+  const RingShape shape = MeasureRing(ring.around, ring.fan, 1);
   ExpectFinite(shape);
   EXPECT_EQ(shape.dominant, 2u);
   EXPECT_NEAR(shape.MeetQuadric({40, 70, 0}), 20, 1e-9);
@@ -88,7 +92,7 @@ TEST(RingShape, ParaboloidIsMetClosely) {
                        static_cast<int32_t>(std::lround(height(x, y)))});
   }
   const Ring ring = RingOf(offsets);
-  const RingShape shape = MeasureRing(kVertex, ring.around, ring.fan, 1);
+  const RingShape shape = MeasureRing(ring.around, ring.fan, 1);
   ExpectFinite(shape);
   EXPECT_NEAR(shape.height_range, 200, 1);
   EXPECT_LT(shape.fit_error, 15);
@@ -100,11 +104,11 @@ TEST(RingShape, ParaboloidIsMetClosely) {
 }
 
 TEST(RingShape, WithoutNeighboursTheScaleStands) {
-  const RingShape shape = MeasureRing(kVertex, {}, {}, 250);
+  const RingShape shape = MeasureRing({}, {}, 250);
   ExpectFinite(shape);
   EXPECT_EQ(shape.count, 0u);
   EXPECT_EQ(shape.spacing, 250);
-  ExpectFinite(MeasureRing(kVertex, {}, {}, 0));
+  ExpectFinite(MeasureRing({}, {}, 0));
 }
 
 TEST(RingShape, CoincidentAndCollinearNeighboursStayFinite) {
@@ -119,8 +123,8 @@ TEST(RingShape, CoincidentAndCollinearNeighboursStayFinite) {
                                       {{0, 0, 0}, {1 << 29, 0, 1}, {1, 0, 0}},
                                       {{7, 7, 7}, {7, 7, 7}, {7, 7, 7}}}) {
     const Ring ring = RingOf(offsets);
-    ExpectFinite(MeasureRing(kVertex, ring.around, ring.fan, 10));
-    ExpectFinite(MeasureRing(kVertex, ring.around, {}, 10));
+    ExpectFinite(MeasureRing(ring.around, ring.fan, 10));
+    ExpectFinite(MeasureRing(ring.around, {}, 10));
   }
 }
 
@@ -128,19 +132,29 @@ TEST(RingShape, LooksAtTheFirstOfVeryManyNeighbours) {
   std::vector<Int3> offsets;
   for (int32_t i = 0; i < 1000; ++i) offsets.push_back({100 - i % 7, i, i % 5});
   const Ring ring = RingOf(offsets);
-  const RingShape shape = MeasureRing(kVertex, ring.around, ring.fan, 10);
+  const RingShape shape = MeasureRing(ring.around, ring.fan, 10);
   ExpectFinite(shape);
   EXPECT_EQ(shape.count, 1000u);
 }
 
 TEST(FanSums, SumAreasAndRims) {
   FanSums fan;
-  fan.AddFace({3, 0, 0}, {0, 4, 0});
-  EXPECT_EQ(fan.area, 12);
-  EXPECT_EQ(fan.rim, 5);
-  EXPECT_EQ(fan.normal, (Vector3{0, 0, 12}));
-  EXPECT_EQ(fan.area_centre, (Vector3{12, 16, 0}));
-  EXPECT_EQ(fan.rim_centre, (Vector3{7.5, 10, 0}));
+  fan.AddFace({Pair{3, 0}, Pair{0, 4}, Pair{0, 0}});
+  EXPECT_EQ(fan.area_rim[0], 12);
+  EXPECT_EQ(fan.area_rim[1], 5);
+  EXPECT_EQ(fan.normal(), (Vector3{0, 0, 12}));
+  EXPECT_EQ(fan.area_centre_xy[0], 12);
+  EXPECT_EQ(fan.area_centre_xy[1], 16);
+  EXPECT_EQ(fan.rim_centre_xy[0], 7.5);
+  EXPECT_EQ(fan.rim_centre_xy[1], 10);
+  EXPECT_EQ(fan.centre_z[0], 0);
+  EXPECT_EQ(fan.centre_z[1], 0);
+}
+
+TEST(FanFace, CrossesItsSidesLaneByLane) {
+  const Vector3 a{3, -7, 11}, b{-5, 13, 2};
+  const FanFace face(Pair{a[0], a[1]}, Pair{b[0], b[1]}, Pair{a[2], b[2]});
+  EXPECT_EQ((Vector3{face.cross_xy[0], face.cross_xy[1], face.cross_z}), Cross(a, b));
 }
 
 }  // namespace

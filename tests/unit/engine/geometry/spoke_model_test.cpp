@@ -12,6 +12,12 @@ namespace {
 constexpr int32_t kCells = 1 << 12;
 const Int3 kOld{2000, 2000, 2000};
 
+RingShape Measured(const std::vector<Int3>& ring) {
+  std::vector<RingSpoke> spokes;
+  for (const Int3& at : ring) spokes.push_back(SpokeBetween(LanePoint(kOld), LanePoint(at)));
+  return MeasureRing(spokes, {}, 1);
+}
+
 /// A vertex with six neighbours about 300 away.
 RingShape RandomRing(std::mt19937* random) {
   std::vector<Int3> ring;
@@ -22,7 +28,7 @@ RingShape RandomRing(std::mt19937* random) {
                     kOld.y + static_cast<int32_t>(300 * std::sin(angle)) + near(),
                     kOld.z + near()});
   }
-  return MeasureRing(kOld, ring, {}, 1);
+  return Measured(ring);
 }
 
 /// What a vertex costs, in bits, where the others hold all cells to be alike: 36 without spokes.
@@ -49,7 +55,7 @@ double CostOf(const RingShape& ring, const std::array<int32_t, 3>& vertex, Spoke
 }
 
 std::array<int32_t, 3> OnSpoke(const RingShape& ring, size_t neighbour, double part) {
-  const Vector3& d = ring.around[neighbour];
+  const Vector3 d = ring.spokes[neighbour].way();
   return {kOld.x + static_cast<int32_t>(std::lround(d[0] * part)),
           kOld.y + static_cast<int32_t>(std::lround(d[1] * part)),
           kOld.z + static_cast<int32_t>(std::lround(d[2] * part))};
@@ -111,11 +117,11 @@ TEST(SpokeModel, VerticesBentOffSpokesKeepWhatTheyGainAlongTheSurface) {
 
 TEST(SpokeModel, TakesVerticesWithoutNeighboursAndFarAway) {
   SpokeModel model;
-  RingShape none = MeasureRing(kOld, {}, {}, 1);
+  RingShape none = Measured({});
   EXPECT_NEAR(CostOf(none, {1, 2, 3}, &model), 36, 1e-3);
   std::vector<Int3> ring{{kOld.x + (1 << 29), kOld.y, kOld.z},
                          {kOld.x, kOld.y - (1 << 29), kOld.z}};
-  const RingShape far = MeasureRing(kOld, ring, {}, 1);
+  const RingShape far = Measured(ring);
   for (int i = 0; i < 100; ++i) {
     const double cost = CostOf(far, {i, kCells - 1 - i, 0}, &model);
     ASSERT_TRUE(std::isfinite(cost)) << i;

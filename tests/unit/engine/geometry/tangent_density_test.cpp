@@ -11,18 +11,24 @@
 namespace folprom {
 namespace {
 
+FanFace FaceOf(const RingSpoke& a, const RingSpoke& b) {
+  return {a.xy, b.xy, Pair{a.z_length[0], b.z_length[0]}};
+}
+
 RingShape Hexagon(double spacing) {
   const Int3 vertex{1 << 28, 1 << 28, 1 << 28};
-  std::vector<Int3> ring;
+  std::vector<RingSpoke> ring;
   FanSums fan;
   for (int i = 0; i < 6; ++i) {
-    ring.push_back({vertex.x + static_cast<int32_t>(spacing * std::cos(i * kPi / 3)),
-                    vertex.y + static_cast<int32_t>(spacing * std::sin(i * kPi / 3)), vertex.z});
+    const Int3 neighbour{vertex.x + static_cast<int32_t>(spacing * std::cos(i * kPi / 3)),
+                         vertex.y + static_cast<int32_t>(spacing * std::sin(i * kPi / 3)),
+                         vertex.z};
+    ring.push_back(SpokeBetween(LanePoint(vertex), LanePoint(neighbour)));
   }
   for (size_t i = 0; i < 6; ++i) {
-    fan.AddFace(Difference(ring[i], vertex), Difference(ring[(i + 1) % 6], vertex));
+    fan.AddFace(FaceOf(ring[i], ring[(i + 1) % 6]));
   }
-  return MeasureRing(vertex, ring, fan, 1);
+  return MeasureRing(ring, fan, 1);
 }
 
 void ExpectSound(const AxisDensity& density, double around) {
@@ -65,14 +71,15 @@ TEST_P(TangentDensityTest, StaysFiniteOverThousandsOfExtremeSamples) {
   for (int round = 0; round < 5000; ++round) {
     const double size = std::exp2(static_cast<double>(random() % 30));
     const Int3 vertex{1 << 29, 1 << 29, 1 << 29};
-    std::vector<Int3> neighbours;
+    std::vector<RingSpoke> neighbours;
     for (uint64_t i = random() % 40; i > 0; --i) {
       auto at = [&] {
         return (1 << 29) + (round % 7 == 0 ? 0 : static_cast<int32_t>(size / 2 * part(random)));
       };
-      neighbours.push_back({at(), at(), at()});
+      const Int3 neighbour{at(), at(), at()};
+      neighbours.push_back(SpokeBetween(LanePoint(vertex), LanePoint(neighbour)));
     }
-    const RingShape ring = MeasureRing(vertex, neighbours, {}, 1);
+    const RingShape ring = MeasureRing(neighbours, {}, 1);
     const double far = std::exp2(static_cast<double>(random() % 64));
     const Vector3 ahead{far * part(random), far * part(random), round % 11 == 0 ? 0 : far};
     model.Prepare(ring, round % 13 == 0 ? Vector3{0, 0, 0} : ahead);

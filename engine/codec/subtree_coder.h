@@ -78,8 +78,9 @@ class SubtreeCoder {
   /// The splits of a layer.
   template <class Coder>
   void CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
-  /// Splits sets down to a spacing; 0: all.
+  void RememberSpacings();
   void PrefetchBehind(size_t place, double least_spacing) const;
+  /// Splits sets down to a spacing; 0: all.
   template <class Coder>
   void CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth, CostMeters* meters);
   /// A step that does not ask, down to a spacing.
@@ -136,6 +137,7 @@ class SubtreeCoder {
   std::vector<uint32_t> open_;
   // Of the step under way.
   bool asking_ = false;
+  std::vector<float> open_spacings_;    ///< as the records of open_ have them, in rounds
   std::vector<double> round_spacings_;  ///< of the rounds that are left, the last first
   struct Share {
     size_t waiting = 0;       ///< the first so many of open_ were asked
@@ -143,7 +145,7 @@ class SubtreeCoder {
   };
   Share share_;
   std::vector<uint32_t> family_, asked_;  // scratch
-  SetStar star_;  ///< of the set under way
+  SetStar star_;                          ///< of the set under way
   size_t refined_ = 0;  ///< the first so many vertices have the precision of this step
 
   SplitCoder split_coder_;

@@ -1,12 +1,28 @@
 // Which sets a SubtreeCoder splits in a layer, and in which order.
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "engine/codec/subtree_coder.h"
 #include "engine/entropy/bit_coder.h"
 
 namespace folprom {
+namespace {
+
+/// Brings the values of these ranks, ascending, to their places; `first` is that of values[0].
+void PlaceRanks(std::span<float> values, size_t first, std::span<const size_t> ranks) {
+  if (ranks.empty()) return;
+  const size_t middle = ranks.size() / 2, place = ranks[middle] - first;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
+                   values.end());
+  PlaceRanks(values.first(place), first, ranks.first(middle));
+  auto behind = ranks.subspan(middle);
+  while (!behind.empty() && behind[0] == ranks[middle]) behind = behind.subspan(1);
+  PlaceRanks(values.subspan(place + 1), first + place + 1, behind);
+}
+
+}  // namespace
 
 template <class Coder>
 void SubtreeCoder::CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* meters) {
@@ -33,61 +49,72 @@ void SubtreeCoder::CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* met
 
 void SubtreeCoder::BeginRounds(double least_spacing) {
   round_spacings_.assign(1, least_spacing);
+  RememberSpacings();
   const LayerSchedule& schedule = parameters_.schedule;
   const size_t rounds = size_t{schedule.rounds(layer_)} * (schedule.parts_left(layer_) + 1);
   // What a grid expects holds where neighbours are split one after the other, large or not: its
   // step is one round, of the first layer.
   if (rounds == 1 || grid_) return;
   std::vector<float> large;
-  for (uint32_t set : open_) {
-    float& spacing = lod_.sets[set].spacing;
+  for (size_t i = 0; i < open_.size(); ++i) {
+    float& spacing = open_spacings_[i];
     if (static_cast<double>(spacing) < least_spacing) continue;
-    spacing = static_cast<float>(lod_.Spacing(set));
+    spacing = static_cast<float>(lod_.Spacing(open_[i]));
+    lod_.sets[open_[i]].spacing = spacing;
     if (static_cast<double>(spacing) >= least_spacing) large.push_back(spacing);
   }
-  std::sort(large.begin(), large.end());
-  for (size_t round = 1; round < rounds; ++round) {
-    const size_t place = large.size() * round / rounds;
-    round_spacings_.push_back(large.empty() ? least_spacing : static_cast<double>(large[place]));
+  std::vector<size_t> ranks;
+  for (size_t round = 1; round < rounds; ++round) ranks.push_back(large.size() * round / rounds);
+  if (!large.empty()) PlaceRanks(large, 0, ranks);
+  for (const size_t rank : ranks) {
+    round_spacings_.push_back(large.empty() ? least_spacing : static_cast<double>(large[rank]));
   }
+}
+
+void SubtreeCoder::RememberSpacings() {
+  open_spacings_.resize(open_.size());
+  for (size_t i = 0; i < open_.size(); ++i) open_spacings_[i] = lod_.sets[open_[i]].spacing;
 }
 
 void SubtreeCoder::PrefetchBehind(size_t place, double least_spacing) const {
   constexpr size_t kRecord = 9, kStar = 6, kRing = 3;
-  const auto is_due = [&](uint32_t set) {
-    const SetRecord& record = lod_.sets[set];
-    return !record.is_leaf && static_cast<double>(record.spacing) >= least_spacing;
+  const auto is_due = [&](size_t i) {
+    return static_cast<double>(open_spacings_[i]) >= least_spacing;
   };
   if (place + kRecord >= open_.size()) return;
-  lod_.PrefetchRecord(open_[place + kRecord]);
-  if (is_due(open_[place + kStar])) lod_.PrefetchStar(open_[place + kStar]);
-  if (is_due(open_[place + kRing])) lod_.PrefetchRing(open_[place + kRing]);
+  if (is_due(place + kRecord)) lod_.PrefetchRecord(open_[place + kRecord]);
+  if (is_due(place + kStar)) lod_.PrefetchStar(open_[place + kStar]);
+  if (is_due(place + kRing)) lod_.PrefetchRing(open_[place + kRing]);
 }
 
 template <class Coder>
 void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth,
                              CostMeters* meters) {
-  if (grid_) OrderAlongSurface();
+  if (grid_) {
+    OrderAlongSurface();
+    RememberSpacings();
+  }
   // Children that are still large enough join the end of the list and the same round.
   size_t kept = 0;
   for (size_t i = 0; i < open_.size(); ++i) {
     const uint32_t set = open_[i];
     PrefetchBehind(i, least_spacing);
-    SetRecord& record = lod_.sets[set];
-    if (record.is_leaf) continue;
     // Spacings fall as neighbours split, so one that was too small before is not measured again.
-    double spacing = static_cast<double>(record.spacing);
-    if (spacing >= least_spacing) {
-      spacing = lod_.Spacing(set);
-      record.spacing = static_cast<float>(spacing);
+    float known = open_spacings_[i];
+    if (static_cast<double>(known) >= least_spacing) {
+      const double spacing = lod_.Spacing(set);
+      known = lod_.sets[set].spacing = static_cast<float>(spacing);
+      if (spacing >= least_spacing) {
+        CodeSet(coder, set, spacing, truth, meters);
+        open_spacings_.resize(open_.size(), SetRecord::kUnmeasured);
+        continue;
+      }
     }
-    if (spacing >= least_spacing) {
-      CodeSet(coder, set, spacing, truth, meters);
-    } else {
-      open_[kept++] = set;
-    }
+    open_[kept] = set;
+    open_spacings_[kept++] = known;
   }
   open_.resize(kept);
+  open_spacings_.resize(kept);
 }
 
 void SubtreeCoder::BeginShares(double least_spacing) {

@@ -231,12 +231,6 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
   return result;
 }
 
-bool LatticeCoder::IsCoarser(uint32_t vertex, LatticePrecision precision) const {
-  uint32_t least = std::min(precision.tangential, precision.normal);
-  const Shifts& shifts = shifts_[vertex];
-  return shifts[0] > least || shifts[1] > least || shifts[2] > least;
-}
-
 template <class Coder>
 bool LatticeCoder::CodeHalf(Coder& coder, uint32_t axis, uint32_t lean_context, const Int3& known,
                             const Shifts& shifts, bool upper) {

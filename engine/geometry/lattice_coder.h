@@ -4,6 +4,7 @@
 // end exact, and precision arrives when the level of detail can use it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -53,7 +54,11 @@ class LatticeCoder {
                const Int3& truth, uint64_t* tangential_meter, uint64_t* normal_meter);
 
   /// Does the vertex know less than the precision asks for, whatever its normal.
-  bool IsCoarser(uint32_t vertex, LatticePrecision precision) const;
+  bool IsCoarser(uint32_t vertex, LatticePrecision precision) const {
+    const uint32_t least = std::min(precision.tangential, precision.normal);
+    const Shifts& shifts = shifts_[vertex];
+    return shifts[0] > least || shifts[1] > least || shifts[2] > least;
+  }
   /// Codes the bits of a vertex that are missing at this precision; returns its position.
   template <class Coder>
   Int3 Refine(Coder& coder, uint32_t vertex, const Int3& known, const RingPlane& ring,

@@ -62,9 +62,8 @@ Lanes FanModel::Interpolate(Table table, Lanes knot, Terms* terms) const {
   const LaneIntegers begin = whole + static_cast<int32_t>(table.begin);
   terms->weight = absent ? begin * 0 + static_cast<int32_t>(kNowhere) : begin;
   terms->share = absent ? AllLanes(0) : inside - FloatsOf(whole);
-  const Lanes low = LookUp(weights_.data(), terms->weight);
-  const Lanes high = LookUp(weights_.data() + 1, terms->weight);
-  return low + terms->share * (high - low);
+  const NeighbouringLanes weights = LookUpTwo(weights_.data(), terms->weight);
+  return weights.here + terms->share * (weights.next - weights.here);
 }
 
 Lanes FanModel::Sum(uint32_t first, uint32_t last, uint32_t group) {
@@ -110,10 +109,12 @@ void FanModel::Weigh(const Fan& fan) {
   for (uint32_t k = n; k < groups_ * kLanes; ++k) as_end.SetPlace(k, kNever);
   const float inverse = 1 / WeighCuts(fan, as_begin, as_end, faces + spokes);
   for (uint32_t i = 0; i < n; ++i) {
+    most_left_[i] = AllLanes(0);
     for (uint32_t g = 0; g < groups_; ++g) {
       const Lanes part = LoadLanes(&left_[i][g * kLanes]) * inverse;
       StoreLanes(part, &left_[i][g * kLanes]);
       StoreLanes(part, &probability_[i][g * kLanes]);
+      most_left_[i] = GreaterOf(most_left_[i], part);
     }
   }
 }
@@ -141,7 +142,7 @@ float FanModel::WeighCuts(const Fan& fan, const AroundFan& as_begin, const Aroun
       most = GreaterOf(most, score);
     }
   }
-  const float highest = std::max({most[0], most[1], most[2], most[3]});
+  const float highest = MostOf(most);
   Lanes sum = AllLanes(0);
   for (uint32_t i = 0; i < n; ++i) {
     for (uint32_t g = 0; g < groups_; ++g) {
@@ -261,16 +262,19 @@ void FanModel::Step() {
 }
 
 FanCut FanModel::TakeLikeliest(uint32_t places, float* probability) {
-  float best = -1;
+  // What is no cut has 0, which every cut that is left exceeds.
+  Lanes most = most_left_[0];
+  for (uint32_t i = 1; i < places; ++i) most = GreaterOf(most, most_left_[i]);
+  const float best = MostOf(most);
   FanCut cut;
-  for (uint32_t i = 0; i < places; ++i) {
-    for (uint32_t j = 0; j < places; ++j) {
-      if (i == j || !(left_[i][j] > best)) continue;
-      best = left_[i][j];
-      cut = {i, j};
-    }
+  while (cut.begin + 1 < places && MostOf(most_left_[cut.begin]) < best) ++cut.begin;
+  std::array<float, kMost>& left = left_[cut.begin];
+  while (cut.end + 1 < places && left[cut.end] < best) ++cut.end;
+  left[cut.end] = -1;
+  most_left_[cut.begin] = AllLanes(0);
+  for (uint32_t g = 0; g < groups_; ++g) {
+    most_left_[cut.begin] = GreaterOf(most_left_[cut.begin], LoadLanes(&left[g * kLanes]));
   }
-  left_[cut.begin][cut.end] = -1;
   *probability = best;
   return cut;
 }

@@ -84,6 +84,7 @@ class FanModel {
   /// Per cut; of those not asked for yet, while they are coded.
   using Cuts = std::array<std::array<float, kMost>, kMost>;
   alignas(16) Cuts probability_, left_;
+  std::array<Lanes, kMost> most_left_;  ///< of left_ with a begin; 0 where none is
 };
 
 }  // namespace folprom

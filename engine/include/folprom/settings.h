@@ -33,7 +33,7 @@ struct CodecSettings {
   Hierarchy hierarchy = Hierarchy::kQuadric;
   Offsets offsets = Offsets::kLattice;
 
-  uint32_t subtree_vertices = 262144;  ///< largest subtree; 1 .. 16,777,216
+  uint32_t subtree_vertices = 147456;  ///< largest subtree; 1 .. 16,777,216
   /// Subtrees are cut by the metric of section 2.1. false: by Euclidean distance, which makes them
   /// compact: on dragon half the cross faces, 60 % fewer bits for seams, 0.7 % fewer in all.
   bool subtree_normals = false;

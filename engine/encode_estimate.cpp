@@ -84,7 +84,8 @@ std::string Text(uint64_t bytes) {
                                         ", " + Text(free) + " are free");
 }
 
-/// A rough sheet of side x side vertices a unit apart, as a binary PLY file.
+/// A rough sheet of side x side vertices a unit apart, cut into triangles at random, as a binary
+/// PLY file: a regular one would be coded faster than scans are.
 std::vector<uint8_t> SheetFile(uint32_t side) {
   char header[256];
   const int size = std::snprintf(
@@ -98,10 +99,11 @@ std::vector<uint8_t> SheetFile(uint32_t side) {
     std::memcpy(bytes.data() + bytes.size() - sizeof value, &value, sizeof value);
   };
   uint32_t random = 1;
-  const auto jitter = [&] {
+  const auto dice = [&] {
     random = random * 1664525 + 1013904223;
-    return 0.5F * static_cast<float>(random >> 8) / static_cast<float>(1 << 24);
+    return static_cast<float>(random >> 8) / static_cast<float>(1 << 24);
   };
+  const auto jitter = [&] { return 0.9F * dice(); };
   for (uint32_t v = 0; v < side * side; ++v) {
     const auto x = static_cast<float>(v % side), y = static_cast<float>(v / side);
     put(x + jitter());
@@ -116,8 +118,9 @@ std::vector<uint8_t> SheetFile(uint32_t side) {
   };
   for (uint32_t v = 0; v < side * (side - 1); ++v) {
     if (v % side + 1 == side) continue;
-    face(v, v + 1, v + side);
-    face(v + 1, v + side + 1, v + side);
+    const bool rises = dice() < 0.5F;
+    face(v, v + 1, rises ? v + side : v + side + 1);
+    face(rises ? v + 1 : v, v + side + 1, v + side);
   }
   return bytes;
 }
@@ -125,7 +128,7 @@ std::vector<uint8_t> SheetFile(uint32_t side) {
 /// One thread, now, with these settings.
 double SecondsPerVertex(EncodeOptions options, double spacing_in_steps,
                         parallel::Progress& progress) {
-  constexpr uint32_t kSide = 160;
+  constexpr uint32_t kSide = 256;
   const io::SpillDirectory folder(options.temporary_folder);
   io::WriteSpillFile(folder, "sheet.ply", SheetFile(kSide));
   options.temporary_folder = folder.path();

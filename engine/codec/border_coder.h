@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/codec/border_record.h"
+#include "engine/connectivity/complex.h"
 #include "engine/entropy/initial_statistics.h"
 #include "engine/entropy/mixed_model.h"
 #include "engine/mesh/types.h"
@@ -14,13 +15,18 @@ namespace folprom {
 struct BorderSplit {
   Int3 first, second;
   uint32_t degree = 0;  ///< edges of the first, at most kMostDegree
+  uint32_t gaps = 0;    ///< of GapsOf()
   bool connected = false;
   bool first_touches = false, second_touches = false;  ///< encoder only
 };
 
+/// How open the surface is at both children: where a subtree ends its own faces leave a gap, and a
+/// set that they enclose seldom touches another subtree. 0 .. BorderCoder::kGaps - 1.
+uint32_t GapsOf(const Complex& complex, uint32_t first, uint32_t second);
+
 class BorderCoder {
  public:
-  static constexpr uint32_t kMostDegree = 15;
+  static constexpr uint32_t kMostDegree = 15, kGaps = 16;
 
   BorderCoder();
 
@@ -38,7 +44,7 @@ class BorderCoder {
  private:
   BorderRecord record_;
   uint32_t set_count_ = 0;
-  MixedModel<1> both_;
+  MixedModel<2> both_;
   MixedModel<1> side_;
 };
 

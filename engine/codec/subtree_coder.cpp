@@ -270,6 +270,7 @@ void SubtreeCoder::CodeBorder(Coder& coder, uint32_t first, uint32_t second,
   split.first = lod_.positions[first];
   split.second = lod_.positions[second];
   split.degree = std::min(lod_.complex.Degree(first), BorderCoder::kMostDegree);
+  split.gaps = GapsOf(lod_.complex, first, second);
   split.connected = split_coder_.last_connected();
   if constexpr (Coder::kEncoding) {
     split.first_touches = truth->FirstTouchesBorder();

@@ -59,7 +59,9 @@ void SubtreeLod::Measure(uint32_t set, SetStar* star) const {
 RingShape SubtreeLod::ShapeAround(const SetStar& star) const {
   FanSums fan;
   for (const FanFace& face : star.faces) fan.AddFace(face);
-  return MeasureRing(star.ring, fan, static_cast<double>(sets[star.set].scale));
+  RingShape shape = MeasureRing(star.ring, fan, static_cast<double>(sets[star.set].scale));
+  shape.is_open = star.faces.size() < star.ring.size();
+  return shape;
 }
 
 }  // namespace folprom

@@ -18,6 +18,12 @@ double SquaredDistance(const Int3& a, const Int3& b) {
   return x * x + y * y + z * z;
 }
 
+/// Difference of squared distances to the children over that between them, in 1/128.
+int32_t LeanOf(double to_first, double to_second, double between) {
+  const double lean = between > 0 ? 128 * (to_first - to_second) / between : 0;
+  return static_cast<int32_t>(std::clamp(lean, -1e6, 1e6));
+}
+
 uint32_t LeanBucket(int32_t lean) {
   constexpr int32_t kBounds[kLeanBuckets - 1] = {10, 22, 36, 52, 70, 90, 112, 140, 180, 250, 400};
   int32_t size = lean < 0 ? -lean : lean;
@@ -122,8 +128,7 @@ void SplitCoder::Measure(const std::vector<Int3>& positions, const Known& known)
     double to_first = SquaredDistance(position, known.first);
     double to_second = SquaredDistance(position, known.second);
     neighbour.regularity = Regularity(to_first, to_second, between);
-    double lean = between > 0 ? 128 * (to_first - to_second) / between : 0;
-    neighbour.lean = static_cast<int32_t>(std::clamp(lean, -1e6, 1e6));
+    neighbour.lean = LeanOf(to_first, to_second, between);
     mean_distance_ += std::sqrt(SquaredDistance(position, parent));
   }
   if (!star_.neighbours.empty()) mean_distance_ /= static_cast<double>(star_.neighbours.size());
@@ -287,14 +292,22 @@ void SplitCoder::CountFace(const SplitStar::StarFace& face) {
 }
 
 template <class Coder>
-void SplitCoder::CodeFaces(Coder& coder, SplitOracle* oracle) {
+void SplitCoder::CodeFaces(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
+                           const Known& known, SplitOracle* oracle) {
+  const double between = SquaredDistance(known.first, known.second);
   for (auto& face : star_.faces) {
     int possible = kBoth;
     int32_t lean = 0;
-    for (uint32_t end : face.end) {
-      if (end == kNone) continue;
-      possible &= star_.neighbours[end].side;
-      lean += star_.neighbours[end].lean / 2;
+    for (uint32_t i = 0; i < 2; ++i) {
+      if (face.end[i] != kNone) {
+        possible &= star_.neighbours[face.end[i]].side;
+        lean += star_.neighbours[face.end[i]].lean / 2;
+        continue;
+      }
+      const Int3& foreign = positions[complex.Opposite(face.corner)[i]];
+      lean += LeanOf(SquaredDistance(foreign, known.first), SquaredDistance(foreign, known.second),
+                     between) /
+              2;
     }
     if (possible == kBoth) {
       Side truth = kUndecided;
@@ -412,7 +425,7 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
   CodePivots(coder, oracle, meters);
   CodeSides(coder, oracle, meters);
   coder.SetMeter(exception_meter);
-  CodeFaces(coder, oracle);
+  CodeFaces(coder, complex, positions, known, oracle);
   ApplySides(complex);
   CodeNewFaces(coder, oracle, complex);
   if constexpr (Coder::kEncoding) oracle->Commit(star_);

@@ -87,7 +87,8 @@ class SplitCoder {
   void CodeSides(Coder& coder, SplitOracle* oracle, SplitMeters* meters);
   void SpreadSide(uint32_t start, Side side);
   template <class Coder>
-  void CodeFaces(Coder& coder, SplitOracle* oracle);
+  void CodeFaces(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
+                 const Known& known, SplitOracle* oracle);
   template <class Coder>
   void CodeNewFaces(Coder& coder, SplitOracle* oracle, Complex& complex);
   void CountFace(const SplitStar::StarFace& face);

@@ -19,7 +19,11 @@ constexpr std::array<double, 8> kSideBounds{-1.2, -0.8, -0.45, -0.15, 0.15, 0.45
 constexpr std::array<double, 4> kLeanBounds{-0.3, -0.1, 0.1, 0.3};
 constexpr std::array<double, 5> kEccentricityBounds{0.06, 0.12, 0.2, 0.3, 0.45};
 
-uint32_t CountBucket(uint32_t count) { return count < 4 ? 0 : (count > 9 ? 7 : count - 3); }
+constexpr uint32_t kCountBuckets = 16;
+
+uint32_t CountBucket(const RingShape& ring) {
+  return std::clamp(ring.count, 3u, 10u) - 3 + (ring.is_open ? 8 : 0);
+}
 
 /// What the new vertex's offset along an axis may follow, in spacings. A hub with many neighbours
 /// next to it may have others very far away.
@@ -39,15 +43,15 @@ LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings setti
     : lo_{lo.x, lo.y, lo.z},
       hi_{hi.x, hi.y, hi.z},
       has_density_(settings.density_step > 0),
-      tangential_({2 * 6 * 8, 9 * 9 * 2, 2 * 16}, settings.mixers),
+      tangential_({2 * 6 * kCountBuckets, 9 * 9 * 2, 2 * 16}, settings.mixers),
       density_(std::max(settings.density_step, 1u)),
       normal_({16 * 4, 16 * 6}, settings.mixers),
-      tangential_fit_(8, OnlineRegression<5>({2, 0, 0, 0, 0})),
-      tangential_scale_(2 * 2 * 8 * 6, 1),
+      tangential_fit_(kCountBuckets, OnlineRegression<5>({2, 0, 0, 0, 0})),
+      tangential_scale_(2 * 2 * kCountBuckets * 6, 1),
       normal_scale_(2 * 16, 1),
       refine_({2 * 12, 16}),
-      tangential_on_planes_({2 * 6 * 8, 9 * 9 * 2, 2 * 16, PlaneModel::kContexts}, settings.mixers,
-                            true),
+      tangential_on_planes_({2 * 6 * kCountBuckets, 9 * 9 * 2, 2 * 16, PlaneModel::kContexts},
+                            settings.mixers, true),
       normal_on_planes_({16 * 4, 16 * 6, PlaneModel::kContexts}, settings.mixers, true),
       refine_on_planes_({2 * 12, 16, PlaneModel::kHalfContexts[0], PlaneModel::kHalfContexts[1]}) {}
 
@@ -137,7 +141,7 @@ int32_t LatticeCoder::CodeAlong(Coder& coder, const Coordinate& at, NewVertex* v
   const double far = straight + slope * vertex->miss_before;
   const double near =
       ring.mean[axis] + (step == 1 ? slope * (vertex->offset[first] - ring.mean[first]) : 0);
-  const uint32_t place = (step * 8 + vertex->count) * 6 + vertex->eccentricity;
+  const uint32_t place = (step * kCountBuckets + vertex->count) * 6 + vertex->eccentricity;
   const std::array<double, 2> means{far, near};
   std::array<CellPrediction, 2> predictions;
   for (uint32_t p = 0; p < 2; ++p) {
@@ -146,9 +150,9 @@ int32_t LatticeCoder::CodeAlong(Coder& coder, const Coordinate& at, NewVertex* v
   }
   const uint32_t lean = Bucket(ring.mean[axis] * inverse, kSideBounds);
   const uint32_t side = step == 0 ? 4 : Bucket(vertex->offset[first] * inverse, kSideBounds);
-  const std::array<uint32_t, 3> contexts{(step * 6 + vertex->eccentricity) * 8 + vertex->count,
-                                         (lean * 9 + side) * 2 + step,
-                                         OctaveBucket(width / at.cell) * 2 + step};
+  const std::array<uint32_t, 3> contexts{
+      (step * 6 + vertex->eccentricity) * kCountBuckets + vertex->count,
+      (lean * 9 + side) * 2 + step, OctaveBucket(width / at.cell) * 2 + step};
   const int32_t value =
       CodeCell(coder, *vertex, at, contexts, predictions, has_density_ ? &axis_density_ : nullptr,
                &tangential_, &tangential_on_planes_);
@@ -200,7 +204,7 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
                            uint64_t* tangential_meter, uint64_t* normal_meter) {
   Int3 result;
   Shifts shifts;
-  NewVertex vertex{old, ring, CountBucket(ring.count), 0, {}};
+  NewVertex vertex{old, ring, CountBucket(ring), 0, {}};
   const double off_centre = std::sqrt(Dot(ring.mean, ring.mean)) * vertex.inverse();
   vertex.eccentricity = Bucket(off_centre, kEccentricityBounds);
   for (uint32_t axis = 0; axis < 3; ++axis) {

@@ -88,6 +88,7 @@ struct RingPlane {
 
 struct RingShape : RingPlane {
   static constexpr size_t kMostSpokes = 32;
+  bool is_open = false;  ///< fewer faces than neighbours: the surface ends there, or its subtree
   /// Those that are looked at.
   std::array<RingSpoke, kMostSpokes> spokes;
   Vector3 direction{0, 0, 0};    ///< mean of the unit vectors to the neighbours, times the spacing

@@ -21,20 +21,20 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0x566e50035b410b97;
-constexpr uint64_t kPaperHash = 0xff54d217bc565c95;
-constexpr uint64_t kSubtreesHash = 0x29778410995e95c5;
-constexpr uint64_t kRangeHash = 0xbad115b5573a5457;
-constexpr uint64_t kLeastEffortHash = 0x13d2681ec9815d97;
-constexpr uint64_t kMostEffortHash = 0x37a119f7b9d861cd;
-constexpr uint64_t kVoxelHash = 0xe9d6da141a64d6fd;
-constexpr uint64_t kExactVoxelHash = 0xfe6d5b4c4ae28d76;
-constexpr uint64_t kSubdividedHash = 0xba286e5afb5b1553;
-constexpr uint64_t kExactHash = 0xb8652da8a17bddd1;
-constexpr uint64_t kExactRestsHash = 0x522e58f9065794aa;
-constexpr uint64_t kOtherHash = 0x686c170d43bdc25d;
-constexpr uint64_t kSoupHash = 0x5100b5c75f2aa6a0;
-constexpr uint64_t kAttributesHash = 0xc7a5559168d7f163;
+constexpr uint64_t kDefaultHash = 0x4eaaf307eb48e2c7;
+constexpr uint64_t kPaperHash = 0xa5c941980ba051e;
+constexpr uint64_t kSubtreesHash = 0xf53d255e83f00778;
+constexpr uint64_t kRangeHash = 0x648168003643229e;
+constexpr uint64_t kLeastEffortHash = 0x83c88839f206c75b;
+constexpr uint64_t kMostEffortHash = 0x6d5505e888371040;
+constexpr uint64_t kVoxelHash = 0xfe29168e5e619986;
+constexpr uint64_t kExactVoxelHash = 0x9823cceaab74b632;
+constexpr uint64_t kSubdividedHash = 0x3f018e47369c9f28;
+constexpr uint64_t kExactHash = 0x4dca56b984f53d29;
+constexpr uint64_t kExactRestsHash = 0x6cf8d60c9640ff45;
+constexpr uint64_t kOtherHash = 0x8e72ea0a9f6b4fc1;
+constexpr uint64_t kSoupHash = 0xf3789226fc6f6e32;
+constexpr uint64_t kAttributesHash = 0xa0b26856f782e604;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

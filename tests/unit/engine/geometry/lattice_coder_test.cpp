@@ -56,6 +56,7 @@ Case RandomCase(uint64_t seed, const Int3& lo, const Int3& hi, uint32_t most_shi
       fan.AddFace(FaceOf(ring[n], ring[n + 1]));
     }
     split.ring = MeasureRing(ring, fan, static_cast<double>(reach));
+    split.ring.is_open = i % 3 == 0;
     split.precision.tangential = static_cast<uint32_t>(random() % (most_shift + 1));
     split.precision.normal = static_cast<uint32_t>(random() % (most_shift + 1));
     result.splits.push_back(split);

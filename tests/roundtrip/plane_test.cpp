@@ -2,27 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/bit_mesh.h"
-#include "tests/support/codec.h"
-#include "tests/support/files.h"
-#include "tests/support/ply.h"
+#include "tests/support/lossless.h"
 #include "tests/support/random.h"
-#include "tests/support/same_mesh.h"
 #include "tests/support/surfaces.h"
 
 namespace folprom::support {
 namespace {
-
-/// Returns the bytes; checks that the mesh comes back.
-uint64_t CodeLosslessly(const Mesh& mesh, const EncodeOptions& options) {
-  TemporaryFolder folder;
-  const std::string scan = folder.File("scan.ply"), folp = folder.File("scan.folp");
-  WritePly(scan, mesh, CoordinateType::kInt);
-  const EncodeReport report = Encode(scan, folp, options);
-  const VerifyReport verified = Verify(folp, scan);
-  EXPECT_TRUE(verified.lossless) << verified.reason;
-  EXPECT_EQ(DifferenceOf(mesh, LodOf(folp), verified.tolerance), "");
-  return report.bytes;
-}
 
 EncodeOptions Bits(uint32_t bits, uint32_t subtree_vertices = 1 << 24) {
   EncodeOptions options;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::string_view kHierarchies[] = {"lloyd", "quadric"};
 constexpr std::string_view kOffsets[] = {"cylindrical", "cartesian", "lattice"};
+constexpr std::string_view kModels[] = {"full", "light"};
 constexpr std::string_view kRepresentatives[] = {"curvature", "centre", "quadric"};
 
 using S = CodecSettings;
@@ -83,13 +84,18 @@ constexpr SettingKey kKeys[] = {
      "distortion; at least one a layer",
      "rounds", 1, 16},
     {"effort", &S::effort,
-     "1 fastest .. 9 smallest: sets subtree_vertices, density_step, mixers, step_parts, "
+     "1 fastest .. 9 smallest: sets subtree_vertices, density_step, mixers, models, step_parts, "
      "length_weight and distortion_first where they are not given beside it",
      "", 1, 9},
     {"density_step", &S::density_step,
      "between cells of the density over the tangent plane, with offsets = \"lattice\"; 0: none",
      "twentieths of the spacing", 0, 4},
     {"mixers", &S::mixers, "mixers that a decision averages, with offsets = \"lattice\"", "", 1, 3},
+    {"models", &S::models,
+     "of cuts, with fan_cuts: full, from all that the triangles look like; light, from a few "
+     "tables, "
+     "faster",
+     "", 0, 0, kModels},
     {"lod_fit", &S::lod_fit,
      "vertices of LODs are drawn off the mesh so that their faces are nearest to it, with offsets "
      "= "
@@ -151,6 +157,7 @@ CodecSettings WithEffort(CodecSettings settings, uint32_t effort) {
   const Preset& preset = kPresets[effort - 1];
   settings.density_step = preset.density_step;
   settings.mixers = preset.mixers;
+  settings.models = effort == 1 ? Models::kLight : Models::kFull;
   settings.subtree_vertices = preset.subtree_vertices;
   settings.step_parts = preset.step_parts;
   settings.length_weight = preset.length_weight;

@@ -23,7 +23,7 @@ struct Key {
   std::string_view table;
   std::string_view name;
   std::variant<uint32_t*, uint64_t*, Count, double*, bool*, std::string*, std::vector<std::string>*,
-               std::vector<double>*, Hierarchy*, Offsets*, Representative*, std::monostate>
+               std::vector<double>*, Hierarchy*, Offsets*, Representative*, Models*, std::monostate>
       value;
   std::string_view meaning;
   std::string_view unit;

@@ -30,7 +30,8 @@ LatticeSettings CodecParameters::lattice() const {
 }
 
 ConnectivitySettings CodecParameters::connectivity() const {
-  return {settings.fan_cuts, settings.pivot_order, settings.nearer_child};
+  return {settings.fan_cuts, settings.pivot_order, settings.nearer_child,
+          settings.models == Models::kLight};
 }
 
 namespace {

@@ -158,13 +158,22 @@ bool SplitCoder::CodeFan(Coder& coder, const Complex& complex, const std::vector
   const bool on_grid = known.grid != nullptr && grid_cuts_->Find(fan_, star_, *known.grid);
   cut_ = on_grid ? grid_cuts_->Code(coder, fan_, truth) : FanCut{};
   if (cut_.begin == cut_.end) {
-    if (!fan_model_) fan_model_ = std::make_unique<FanModel>();
-    cut_ = fan_model_->Code(coder, fan_, spokes_, relative(known.second), truth);
+    cut_ = CodeCut(coder, relative(known.second), truth);
   }
   if (on_grid) grid_kind_ = grid_cuts_->Learn(fan_, *known.grid, cut_);
   star_.connected = true;
   PartFan(fan_, cut_, &star_);
   return true;
+}
+
+template <class Coder>
+FanCut SplitCoder::CodeCut(Coder& coder, const Vector3& second, FanCut truth) {
+  if (settings_.light) {
+    if (!light_fan_model_) light_fan_model_ = std::make_unique<LightFanModel>();
+    return light_fan_model_->Code(coder, fan_, spokes_, second, truth);
+  }
+  if (!fan_model_) fan_model_ = std::make_unique<FanModel>();
+  return fan_model_->Code(coder, fan_, spokes_, second, truth);
 }
 
 void SplitCoder::SortPivotCandidates() {

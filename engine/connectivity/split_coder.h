@@ -14,6 +14,7 @@
 #include "engine/connectivity/fan.h"
 #include "engine/connectivity/fan_model.h"
 #include "engine/connectivity/grid_cuts.h"
+#include "engine/connectivity/light_fan_model.h"
 #include "engine/connectivity/split_oracle.h"
 #include "engine/connectivity/split_star.h"
 #include "engine/entropy/mixed_model.h"
@@ -27,6 +28,7 @@ struct ConnectivitySettings {
   bool fan_cuts = true;
   bool pivot_order = true;
   bool nearer_child = true;
+  bool light = false;  ///< cuts of fans by the LightFanModel
 };
 
 /// Pivot flags (context: number of neighbours and place in the order, both at most 15) and side
@@ -79,6 +81,9 @@ class SplitCoder {
   template <class Coder>
   bool CodeFan(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
                const Known& known, SplitOracle* oracle, SplitMeters* meters);
+  /// Of the fan and its spokes. second: the second child relative to the first.
+  template <class Coder>
+  FanCut CodeCut(Coder& coder, const Vector3& second, FanCut truth);
   void AddFanFaces(Complex& complex);
   void SortPivotCandidates();
   template <class Coder>
@@ -121,7 +126,9 @@ class SplitCoder {
   std::unique_ptr<GridCuts> grid_cuts_;  ///< from the first fan of a grid on
   uint8_t grid_kind_ = 0;
   MixedModel<1> stays_fan_;
-  std::unique_ptr<FanModel> fan_model_;  ///< from the first fan on: most seams have none
+  // One of the two from the first fan on: most seams have none.
+  std::unique_ptr<FanModel> fan_model_;
+  std::unique_ptr<LightFanModel> light_fan_model_;
   MixedModel<2> connected_;
   MixedModel<3> pivot_;
   MixedModel<3> side_;

@@ -202,10 +202,12 @@ TEST_F(Config, KeysWinOverTheEffortOfTheFileAndTheFlagOverBoth) {
   EXPECT_EQ(from_file["effort"].value<int>(), 1);
   EXPECT_EQ(from_file["density_step"].value<int>(), 3);
   EXPECT_EQ(from_file["subtree_vertices"].value<int>(), 32768);
+  EXPECT_EQ(from_file["models"].value<std::string>(), "light");
   const toml::table with_flag = codec({"--effort", "9"});
   EXPECT_EQ(with_flag["effort"].value<int>(), 9);
   EXPECT_EQ(with_flag["density_step"].value<int>(), 1);
   EXPECT_EQ(with_flag["mixers"].value<int>(), 3);
+  EXPECT_EQ(with_flag["models"].value<std::string>(), "full");
   EXPECT_EQ(with_flag["subtree_vertices"].value<int>(), 1048576);
   const toml::table with_both = codec({"--effort", "9", "--subtree-vertices", "20k"});
   EXPECT_EQ(with_both["subtree_vertices"].value<int>(), 20000);
@@ -254,6 +256,7 @@ TEST_F(Config, ValuesOutOfRangeAreRejected) {
   ExpectRejected("[codec]\neffort = 10\n", 2, "1 .. 9");
   ExpectRejected("[codec]\ndensity_step = 5\n", 2, "0 .. 4");
   ExpectRejected("[codec]\nmixers = 0\n", 2, "1 .. 3");
+  ExpectRejected("[codec]\nmodels = \"thin\"\n", 2, "light");
   ExpectRejected("[codec]\nmetric_a = 1.5\n", 2, "0 .. 1");
   ExpectRejected("[codec]\nmetric_b = nan\n", 2, "1 .. 64");
   ExpectRejected("[encode]\ntolerance = inf\n", 2, "tolerance");

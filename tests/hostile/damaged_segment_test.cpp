@@ -65,6 +65,7 @@ Bytes FileOfKind(size_t kind) {
     case 7:
       options = SmallOptions(80);
       options.codec.density_step = 0;
+      options.codec.models = Models::kLight;
       break;
     case 8:
       options = SmallOptions(150);

@@ -102,6 +102,7 @@ TEST_P(ForgedTable, WithSettingsOutOfRangeIsCorrupt) {
   ExpectCorrupt(WithSettings([](S& s) { s.offsets = static_cast<Offsets>(255); }), "offsets");
   ExpectCorrupt(WithSettings([](S& s) { s.representative = static_cast<Representative>(3); }),
                 "representative");
+  ExpectCorrupt(WithSettings([](S& s) { s.models = static_cast<Models>(2); }), "models");
 }
 
 TEST_P(ForgedTable, WithAnyByteOfTheSettingsChangedEndsWell) {

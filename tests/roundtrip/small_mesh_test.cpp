@@ -96,6 +96,10 @@ INSTANTIATE_TEST_SUITE_P(LloydInSubtreesOf, SmallMeshTest,
                          ::testing::ValuesIn(EveryMeshInSubtrees({"Lloyd", LloydSettings()})),
                          NameOfCase);
 
+INSTANTIATE_TEST_SUITE_P(LightInSubtreesOf, SmallMeshTest,
+                         ::testing::ValuesIn(EveryMeshInSubtrees({"Light", LightSettings()})),
+                         NameOfCase);
+
 /// Counts, positions and faces are compared above; that the comparison itself sees faults is proven
 /// here.
 TEST(MeshComparisonTest, SeesAReversedFace) {

@@ -19,6 +19,13 @@ inline CodecSettings LloydSettings() {
   return settings;
 }
 
+/// Light models, all else as it is by default.
+inline CodecSettings LightSettings() {
+  CodecSettings settings;
+  settings.models = Models::kLight;
+  return settings;
+}
+
 /// The parameter of a test that holds for either coder.
 struct Coder {
   std::string name;

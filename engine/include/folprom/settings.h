@@ -27,6 +27,11 @@ enum class Representative : uint8_t {
   kQuadric = 2     ///< the point nearest to the tangent planes of the set's vertices
 };
 
+enum class Models : uint8_t {
+  kFull = 0,  ///< all that triangles look like
+  kLight = 1  ///< a few tables: faster
+};
+
 /// Settings of the coder. The same values and the same scan give the same bytes. Each field is a
 /// key of the [codec] table of a config file, by the same name.
 struct CodecSettings {
@@ -87,6 +92,7 @@ struct CodecSettings {
   /// twentieths of the spacing; 1 .. 4, 0: no density.
   uint32_t density_step = 2;
   uint32_t mixers = 2;  ///< Offsets::kLattice: how many mixers a decision averages; 1 .. 3
+  Models models = Models::kFull;  ///< fan_cuts: what cuts are predicted from
 
   /// Offsets::kLattice: vertices of LODs are drawn off the mesh, on the outer side of its bends,
   /// where their faces are nearest to it. false: at vertices of the mesh.
@@ -94,7 +100,7 @@ struct CodecSettings {
 };
 
 /// The settings with those that effort (1 .. 9, others are left to CheckSettings) stands for:
-/// subtree_vertices, density_step, mixers, step_parts, length_weight, distortion_first, and effort
+/// subtree_vertices, density_step, mixers, models, step_parts, length_weight, distortion_first, and effort
 /// itself.
 CodecSettings WithEffort(CodecSettings settings, uint32_t effort);
 

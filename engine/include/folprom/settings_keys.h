@@ -11,9 +11,10 @@ namespace folprom {
 
 /// A key of the [codec] table, in the order of CodecSettings.
 struct SettingKey {
-  using Member = std::variant<uint32_t CodecSettings::*, double CodecSettings::*,
-                              bool CodecSettings::*, Hierarchy CodecSettings::*,
-                              Offsets CodecSettings::*, Representative CodecSettings::*>;
+  using Member =
+      std::variant<uint32_t CodecSettings::*, double CodecSettings::*, bool CodecSettings::*,
+                   Hierarchy CodecSettings::*, Offsets CodecSettings::*,
+                   Representative CodecSettings::*, Models CodecSettings::*>;
   std::string_view name;  ///< also the name of the field
   Member member;
   std::string_view meaning;  ///< one line

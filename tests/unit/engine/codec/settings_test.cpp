@@ -48,6 +48,7 @@ TEST(WithEffort, IsTheDefaultAtFive) {
   EXPECT_EQ(five.effort, usual.effort);
   EXPECT_EQ(five.density_step, usual.density_step);
   EXPECT_EQ(five.mixers, usual.mixers);
+  EXPECT_EQ(five.models, usual.models);
   EXPECT_EQ(five.subtree_vertices, usual.subtree_vertices);
   EXPECT_EQ(five.step_parts, usual.step_parts);
   EXPECT_EQ(five.length_weight, usual.length_weight);
@@ -62,6 +63,8 @@ TEST(WithEffort, NeverDoesLessForMore) {
     EXPECT_EQ(more.effort, effort + 1);
     EXPECT_LE(less.subtree_vertices, more.subtree_vertices);
     EXPECT_LE(less.mixers, more.mixers);
+    EXPECT_EQ(less.models, effort == 1 ? Models::kLight : Models::kFull);
+    EXPECT_EQ(more.models, Models::kFull);
     const auto cells = [](uint32_t step) { return step == 0 ? 0 : 5 - step; };
     EXPECT_LE(cells(less.density_step), cells(more.density_step));
     EXPECT_TRUE(less.subtree_vertices < more.subtree_vertices || less.mixers < more.mixers ||

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/connectivity/fan_model.h"
+#include "engine/connectivity/light_fan_model.h"
 #include "engine/entropy/bit_coder.h"
 
 namespace folprom {
@@ -133,12 +134,17 @@ Sample Draw(std::mt19937_64* random, bool noise) {
   return sample;
 }
 
-TEST(FanModel, GivesBackEveryCutOfAnyGeometry) {
+template <class Model>
+class AnyFanModel : public ::testing::Test {};
+using FanModels = ::testing::Types<FanModel, LightFanModel>;
+TYPED_TEST_SUITE(AnyFanModel, FanModels);
+
+TYPED_TEST(AnyFanModel, GivesBackEveryCutOfAnyGeometry) {
   std::mt19937_64 random(5);
   std::vector<Sample> samples;
   for (int i = 0; i < 3000; ++i) samples.push_back(Draw(&random, i % 3 != 0));
   BitEncoder encoder;
-  FanModel writer, reader;
+  TypeParam writer, reader;
   for (const Sample& s : samples) writer.Code(encoder, s.fan, s.spokes, s.second, s.cut);
   const auto bytes = encoder.TakeSegment();
   BitDecoder decoder;
@@ -151,10 +157,10 @@ TEST(FanModel, GivesBackEveryCutOfAnyGeometry) {
   decoder.FinishSegment();
 }
 
-TEST(FanModel, LearnsWhereThePivotsLie) {
+TYPED_TEST(AnyFanModel, LearnsWhereThePivotsLie) {
   std::mt19937_64 random(6);
   BitEncoder encoder;
-  FanModel model;
+  TypeParam model;
   uint64_t early = 0, late = 0;
   for (int i = 0; i < 1000; ++i) {
     const Sample s = Draw(&random, false);

@@ -26,7 +26,7 @@ OffsetSettings CodecParameters::offsets() const {
 }
 
 LatticeSettings CodecParameters::lattice() const {
-  return {settings.density_step, settings.mixers};
+  return {settings.density_step, settings.mixers, settings.models == Models::kLight};
 }
 
 ConnectivitySettings CodecParameters::connectivity() const {

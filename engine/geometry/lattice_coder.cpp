@@ -5,6 +5,7 @@
 
 #include "engine/entropy/bit_coder.h"
 #include "engine/geometry/buckets.h"
+#include "engine/geometry/light_position_model.h"
 
 namespace folprom {
 namespace {
@@ -53,7 +54,16 @@ LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings setti
       tangential_on_planes_({2 * 6 * kCountBuckets, 9 * 9 * 2, 2 * 16, PlaneModel::kContexts},
                             settings.mixers, true),
       normal_on_planes_({16 * 4, 16 * 6, PlaneModel::kContexts}, settings.mixers, true),
-      refine_on_planes_({2 * 12, 16, PlaneModel::kHalfContexts[0], PlaneModel::kHalfContexts[1]}) {}
+      refine_on_planes_({2 * 12, 16, PlaneModel::kHalfContexts[0], PlaneModel::kHalfContexts[1]}) {
+  if (settings.light) light_ = std::make_unique<LightPositionModel>(lo_, hi_);
+}
+
+LatticeCoder::~LatticeCoder() = default;
+
+void LatticeCoder::UsePlanes(std::shared_ptr<const CoordinatePlanes> planes) {
+  if (light_) light_->UsePlanes(planes);
+  plane_model_.Use(std::move(planes));
+}
 
 void LatticeCoder::Visit(LearnedStateVisitor& visitor) {
   tangential_.Visit(visitor);
@@ -199,11 +209,34 @@ int32_t LatticeCoder::CodeAcross(Coder& coder, const Coordinate& at, const NewVe
 }
 
 template <class Coder>
+Int3 LatticeCoder::CodeNewLightly(Coder& coder, const Int3& old, const RingShape& ring,
+                                  LatticePrecision precision, const Int3& truth,
+                                  uint64_t* tangential_meter, uint64_t* normal_meter) {
+  Shifts shifts;
+  std::array<int32_t, 3> cells;
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    const uint32_t shift = axis == ring.dominant ? precision.normal : precision.tangential;
+    shifts[axis] = static_cast<uint8_t>(shift);
+    cells[axis] = At(truth, axis) >> shift;
+  }
+  cells = light_->Code(coder, old, ring, shifts, cells, tangential_meter, normal_meter);
+  Int3 result;
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    At(result, axis) = Centre(axis, cells[axis], shifts[axis]);
+  }
+  shifts_.push_back(shifts);
+  return result;
+}
+
+template <class Coder>
 Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
                            LatticePrecision precision, const Int3& truth,
                            uint64_t* tangential_meter, uint64_t* normal_meter) {
   Int3 result;
   Shifts shifts;
+  if (light_) {
+    return CodeNewLightly(coder, old, ring, precision, truth, tangential_meter, normal_meter);
+  }
   NewVertex vertex{old, ring, CountBucket(ring), 0, {}};
   const double off_centre = std::sqrt(Dot(ring.mean, ring.mean)) * vertex.inverse();
   vertex.eccentricity = Bucket(off_centre, kEccentricityBounds);

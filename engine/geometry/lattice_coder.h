@@ -32,17 +32,19 @@ struct LatticePrecision {
 struct LatticeSettings {
   uint32_t density_step;  ///< of the TangentDensity; 0: none
   uint32_t mixers;        ///< of the MixedModel of cells
+  bool light = false;     ///< new vertices by the LightPositionModel
 };
+
+class LightPositionModel;
 
 class LatticeCoder {
  public:
   /// Coordinates lie in [lo, hi].
   LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings settings);
+  ~LatticeCoder();
 
   /// From now on coordinates on these planes are likelier.
-  void UsePlanes(std::shared_ptr<const CoordinatePlanes> planes) {
-    plane_model_.Use(std::move(planes));
-  }
+  void UsePlanes(std::shared_ptr<const CoordinatePlanes> planes);
 
   /// A vertex that is known exactly. It gets the next number.
   void AddExact() { shifts_.push_back({0, 0, 0}); }
@@ -75,6 +77,11 @@ class LatticeCoder {
                    const std::array<uint32_t, N>& contexts,
                    const std::array<CellPrediction, 2>& predictions, const AxisDensity* measured,
                    Model* model, CellModel<N + 1, 2, 1>* on_planes);
+  /// CodeNew with light models.
+  template <class Coder>
+  Int3 CodeNewLightly(Coder& coder, const Int3& old, const RingShape& ring,
+                      LatticePrecision precision, const Int3& truth, uint64_t* tangential_meter,
+                      uint64_t* normal_meter);
   template <class Coder>
   int32_t CodeAlong(Coder& coder, const Coordinate& at, NewVertex* vertex);
   template <class Coder>
@@ -103,6 +110,7 @@ class LatticeCoder {
   CellModel<4, 2, 1> tangential_on_planes_;
   CellModel<3, 2, 1> normal_on_planes_;
   MixedModel<4> refine_on_planes_;
+  std::unique_ptr<LightPositionModel> light_;  ///< instead of all others for new vertices
 };
 
 }  // namespace folprom

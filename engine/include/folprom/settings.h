@@ -92,7 +92,7 @@ struct CodecSettings {
   /// twentieths of the spacing; 1 .. 4, 0: no density.
   uint32_t density_step = 2;
   uint32_t mixers = 2;  ///< Offsets::kLattice: how many mixers a decision averages; 1 .. 3
-  Models models = Models::kFull;  ///< fan_cuts: what cuts are predicted from
+  Models models = Models::kFull;  ///< what cuts and positions are predicted from
 
   /// Offsets::kLattice: vertices of LODs are drawn off the mesh, on the outer side of its bends,
   /// where their faces are nearest to it. false: at vertices of the mesh.
@@ -100,8 +100,8 @@ struct CodecSettings {
 };
 
 /// The settings with those that effort (1 .. 9, others are left to CheckSettings) stands for:
-/// subtree_vertices, density_step, mixers, models, step_parts, length_weight, distortion_first, and effort
-/// itself.
+/// subtree_vertices, density_step, mixers, models, step_parts, rounds_per_step, length_weight,
+/// distortion_first, and effort itself.
 CodecSettings WithEffort(CodecSettings settings, uint32_t effort);
 
 /// kUsage with the name of the first field out of its range.

@@ -134,6 +134,18 @@ TEST(LatticeCoder, RandomVerticesComeBackWithEverySetting) {
   }
 }
 
+TEST(LatticeCoder, RandomVerticesComeBackWithLightModels) {
+  constexpr int32_t kMost = (1 << 30) - 1;
+  for (Case input : {RandomCase(9, {0, 0, 0}, {kMost, kMost, kMost}, 30),
+                     RandomCase(10, {12345, 777, 5}, {1012345, 34567, 1003}, 12),
+                     RandomCase(11, {1000, 1000, 1000}, {1007, 1003, 1001}, 5),
+                     RandomCase(12, {5, 9, 13}, {100005, 9, 100013}, 20),
+                     RandomCase(13, {5, 9, 13}, {5, 9, 13}, 30)}) {
+    input.settings = {0, 1, true};
+    ExpectRoundTrip(input);
+  }
+}
+
 TEST(LatticeCoder, FlatBoxAndBoxOfOnePointComeBack) {
   ExpectRoundTrip(RandomCase(4, {5, 9, 13}, {100005, 9, 100013}, 20));
   ExpectRoundTrip(RandomCase(5, {5, 9, 13}, {5, 9, 13}, 30));

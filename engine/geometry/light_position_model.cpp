@@ -1,0 +1,268 @@
+#include "engine/geometry/light_position_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "engine/entropy/bit_coder.h"
+#include "engine/geometry/buckets.h"
+
+namespace folprom {
+namespace {
+
+constexpr std::array<double, 5> kEccentricityBounds{0.06, 0.12, 0.2, 0.3, 0.45};
+constexpr std::array<double, 8> kSideBounds{-1.2, -0.8, -0.45, -0.15, 0.15, 0.45, 0.8, 1.2};
+constexpr uint32_t kCounts = 16, kEccentricities = 6, kWidths = 16;
+constexpr uint32_t kSides = 9, kNoSide = 4;
+/// Of the places, on planes or not, of no, one and two coordinates before: 1 + 3 + 9.
+constexpr uint32_t kPlaces = 3, kKnown = 13;
+constexpr std::array<uint32_t, 3> kFirstKnown{0, 1, 4};
+constexpr uint32_t kMassSteps = 28;
+
+uint32_t CountBucket(const RingShape& ring) {
+  return std::clamp(ring.count, 3u, 10u) - 3 + (ring.is_open ? 8 : 0);
+}
+
+double Covariance(const RingShape& ring, uint32_t a, uint32_t b) {
+  constexpr uint32_t kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  return ring.covariance[kPlace[a][b]];
+}
+
+/// On the lattice without its planes, the cell `at`, which is not on one, has the number at - (the
+/// number of planes below). The cell of a number.
+int32_t CellBesidePlanes(std::span<const int32_t> planes, int32_t number) {
+  size_t lo = 0, hi = planes.size();
+  while (lo < hi) {
+    const size_t middle = (lo + hi) / 2;
+    if (planes[middle] - static_cast<int32_t>(middle) <= number) {
+      lo = middle + 1;
+    } else {
+      hi = middle;
+    }
+  }
+  return number + static_cast<int32_t>(lo);
+}
+
+}  // namespace
+
+/// The vertex under way. Offsets and lengths in lattice units.
+struct LightPositionModel::Vertex : LightSpokes::Vertex {
+  uint32_t count, eccentricity;  ///< buckets
+  double inverse;                ///< of the spacing
+  std::array<int32_t, 3> cells{};
+  Vector3 offset{0, 0, 0};  ///< of the coordinates that are coded
+  double miss_before = 0, variance_before = 1;
+  uint32_t known = 0;  ///< places of the coordinates that are coded
+
+  double unit(uint32_t axis) const { return static_cast<double>(uint64_t{1} << shifts[axis]); }
+  double origin(uint32_t axis) const { return static_cast<double>(At(old, axis)) + 0.5; }
+  void Place(uint32_t axis, int32_t cell) {
+    cells[axis] = cell;
+    offset[axis] = (static_cast<double>(cell) + 0.5) * unit(axis) - origin(axis);
+  }
+};
+
+LightPositionModel::LightPositionModel(const std::array<int32_t, 3>& lo,
+                                       const std::array<int32_t, 3>& hi)
+    : lo_(lo),
+      hi_(hi),
+      fit_(kCounts, OnlineRegression<2>({2, 0})),
+      along_scale_(2 * kCounts * kEccentricities, 1),
+      across_scale_(kWidths, 1),
+      cells_{LightCellModel(kSides), LightCellModel(kSides * kSides), LightCellModel()},
+      beside_planes_(cells_),
+      planes_cells_(cells_),
+      on_plane_(kKnown * 2 * kMassSteps, kEvenState) {}
+
+template <class Coder>
+int32_t LightPositionModel::CodeCell(Coder& coder, uint32_t step, double mean, double scale,
+                                     uint32_t side_context, int32_t truth, Vertex* vertex) {
+  constexpr double kLeastScale = 0.04;
+  const uint32_t axis = vertex->axes[step], shift = vertex->shifts[axis];
+  const int32_t lo = vertex->lo[axis], hi = vertex->hi[axis];
+  const CellLogistic density(mean, std::max(scale, kLeastScale));
+  const uint32_t before = kFirstKnown[step] + vertex->known;
+  vertex->known = vertex->known * kPlaces;
+  const std::span<const int32_t> on =
+      planes_ == nullptr ? std::span<const int32_t>() : planes_->On(axis);
+  if (on.size() < 2) return cells_[step].Code(coder, density, lo, hi, truth, side_context);
+  // The planes on either side of the prediction.
+  const double near = std::clamp(mean, static_cast<double>(lo), static_cast<double>(hi));
+  const double unit = vertex->unit(axis), near_unit = std::floor(near * unit);
+  const size_t below = planes_->Below(axis, static_cast<int64_t>(near_unit));
+  const size_t next = std::clamp<size_t>(below, 1, on.size() - 1);
+  const int64_t gap = int64_t{on[next]} - on[next - 1];
+  if (gap < int64_t{2} << shift) {
+    return cells_[step].Code(coder, density, lo, hi, truth, side_context);
+  }
+  const double mass = density.Mass(on[next - 1] >> shift) + density.Mass(on[next] >> shift);
+  const uint32_t mass_step = OddsStep<1>((mass + 1e-9) / (1 - mass + 1e-9), -10, kMassSteps);
+  const int32_t old = At(vertex->old, axis) >> shift;
+  const size_t old_plane = planes_->Below(axis, int64_t{old} << shift);
+  const bool old_on = old_plane < on.size() && on[old_plane] >> shift == old;
+  bool is_on = false;
+  int32_t plane = 0;
+  if constexpr (Coder::kEncoding) {
+    const size_t place = planes_->Below(axis, int64_t{truth} << shift);
+    is_on = place < on.size() && on[place] >> shift == truth;
+    plane = static_cast<int32_t>(place);
+  }
+  is_on =
+      CodePlain(coder, &on_plane_[(before * 2 + (old_on ? 1 : 0)) * kMassSteps + mass_step], is_on);
+  vertex->known = vertex->known + (is_on ? 2 : 1);
+  if (is_on) {
+    const double per_gap = unit / static_cast<double>(gap);
+    const double behind = (near * unit - on[next - 1]) / static_cast<double>(gap);
+    const CellLogistic planes_density(static_cast<double>(next - 1) + behind + 0.5,
+                                      std::max(scale * per_gap, kLeastScale));
+    plane = planes_cells_[step].Code(coder, planes_density, 0, static_cast<int32_t>(on.size()) - 1,
+                                     plane, side_context);
+    return on[static_cast<size_t>(plane)] >> shift;
+  }
+  if (shift > 0) return beside_planes_[step].Code(coder, density, lo, hi, truth, side_context);
+  const bool is_inside = below < on.size() && on[below] == static_cast<int32_t>(near_unit);
+  CellLogistic beside = density;
+  beside.mean = (is_inside ? near_unit : near) - static_cast<double>(below);
+  const int32_t number = beside_planes_[step].Code(
+      coder, beside, lo, hi - static_cast<int32_t>(on.size()), truth - plane, side_context);
+  return CellBesidePlanes(on, number);
+}
+
+/// Along the surface.
+template <class Coder>
+void LightPositionModel::CodeAlong(Coder& coder, uint32_t step, int32_t truth, Vertex* vertex) {
+  constexpr double kMost = 64;
+  const RingShape& ring = vertex->ring;
+  const uint32_t axis = vertex->axes[step], first = vertex->axes[0];
+  double variance = Covariance(ring, axis, axis), slope = 0;
+  if (step == 1) {
+    slope = Covariance(ring, first, axis) / vertex->variance_before;
+    variance = variance - slope * Covariance(ring, first, axis);
+  }
+  const double floor = 0.02 * ring.spacing * ring.spacing;
+  if (!(variance > floor)) variance = floor;
+  vertex->variance_before = variance;
+  const double width = std::sqrt(variance), straight = vertex->expected[axis];
+  const double mean = straight + slope * vertex->miss_before;
+  const uint32_t place = (step * kCounts + vertex->count) * kEccentricities + vertex->eccentricity;
+  const double unit = vertex->unit(axis);
+  const double scale = kScalePerMiss * along_scale_.Of(place) * width / unit;
+  uint32_t side = Bucket(straight * vertex->inverse, kSideBounds);
+  if (step == 1)
+    side = side * kSides + Bucket(vertex->offset[first] * vertex->inverse, kSideBounds);
+  vertex->Place(axis, CodeCell(coder, step, (vertex->origin(axis) + mean) / unit, scale, side,
+                               truth, vertex));
+  const double offset = vertex->offset[axis];
+  vertex->miss_before = offset - straight;
+  if constexpr (kLearns<Coder>) {
+    along_scale_.Learn(place, std::fabs(offset - mean) / width);
+    const auto feature = [&](const Vector3& from) {
+      return std::clamp(from[axis] * vertex->inverse, -kMost, kMost);
+    };
+    fit_[vertex->count].Learn({feature(ring.mean), feature(ring.direction)},
+                              std::clamp(offset * vertex->inverse, -kMost, kMost));
+  }
+}
+
+/// Across the surface.
+template <class Coder>
+void LightPositionModel::CodeAcross(Coder& coder, int32_t truth, Vertex* vertex) {
+  const RingShape& ring = vertex->ring;
+  const uint32_t axis = vertex->axes[2];
+  const double unit = vertex->unit(axis), bent = ring.MeetQuadric(vertex->offset);
+  const double width =
+      (ring.fit_error + 0.1 * ring.height_range) / std::fabs(ring.normal[axis]) + 0.25 * unit;
+  const uint32_t bucket = OddsStep<1>(width / unit, -3, kWidths);
+  const double scale = kScalePerMiss * across_scale_.Of(bucket) * width / unit;
+  vertex->Place(axis,
+                CodeCell(coder, 2, (vertex->origin(axis) + bent) / unit, scale, 0, truth, vertex));
+  if constexpr (kLearns<Coder>) {
+    across_scale_.Learn(bucket, std::fabs(vertex->offset[axis] - bent) / width);
+  }
+}
+
+template <class Coder>
+void LightPositionModel::CodeCells(Coder& coder, const std::array<int32_t, 3>& truth, Meters meters,
+                                   Vertex* vertex) {
+  coder.SetMeter(meters.tangential);
+  for (uint32_t step = 0; step < 2; ++step) {
+    CodeAlong(coder, step, truth[vertex->axes[step]], vertex);
+  }
+  coder.SetMeter(meters.normal);
+  CodeAcross(coder, truth[vertex->axes[2]], vertex);
+}
+
+bool LightPositionModel::PaysOnSpoke(const Vertex& vertex, const std::array<int32_t, 3>& truth) {
+  // What is told so gets cheaper: two bits, in 1/1024.
+  constexpr uint64_t kPatience = 2048;
+  if (!spokes_.Finds(vertex, truth)) return false;
+  PlainState* flag = spokes_.flag();
+  TrialCoder on, off;
+  Vertex trial = vertex;
+  CodePlain(on, flag, true);
+  if (!spokes_.Code(on, vertex, truth, &trial.cells)) {
+    for (uint32_t step = 0; step < 2; ++step) {
+      trial.Place(vertex.axes[step], truth[vertex.axes[step]]);
+    }
+    CodeAcross(on, truth[vertex.axes[2]], &trial);
+  }
+  Vertex beside = vertex;
+  CodePlain(off, flag, false);
+  CodeCells(off, truth, {}, &beside);
+  return on.cost() < off.cost() + kPatience;
+}
+
+template <class Coder>
+std::array<int32_t, 3> LightPositionModel::Code(
+    Coder& coder, const Int3& old, const RingShape& ring, const std::array<uint8_t, 3>& shifts,
+    const std::array<int32_t, 3>& truth, uint64_t* tangential_meter, uint64_t* normal_meter) {
+  constexpr double kMost = 64;
+  const uint32_t first = (ring.dominant + 1) % 3;
+  const double inverse = 1 / ring.spacing;
+  Vertex vertex{{old, ring, {first, (first + 1) % 3, ring.dominant}, shifts, {}, {}, {}},
+                CountBucket(ring),
+                0,
+                inverse};
+  const double off_centre = std::sqrt(Dot(ring.mean, ring.mean)) * inverse;
+  vertex.eccentricity = Bucket(off_centre, kEccentricityBounds);
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    const auto feature = [&](const Vector3& from) {
+      return std::clamp(from[axis] * inverse, -kMost, kMost);
+    };
+    vertex.expected[axis] =
+        fit_[vertex.count].Predict({feature(ring.mean), feature(ring.direction)}) * ring.spacing;
+    vertex.lo[axis] = lo_[axis] >> shifts[axis];
+    vertex.hi[axis] = hi_[axis] >> shifts[axis];
+  }
+  if (!spokes_.Asks(ring.count)) {
+    CodeCells(coder, truth, {tangential_meter, normal_meter}, &vertex);
+    return vertex.cells;
+  }
+  coder.SetMeter(tangential_meter);
+  bool on_spoke = false;
+  if constexpr (Coder::kEncoding) on_spoke = PaysOnSpoke(vertex, truth);
+  on_spoke = CodePlain(coder, spokes_.flag(), on_spoke);
+  spokes_.Learn(on_spoke);
+  if (!on_spoke) {
+    CodeCells(coder, truth, {tangential_meter, normal_meter}, &vertex);
+    return vertex.cells;
+  }
+  if (!spokes_.Code(coder, vertex, truth, &vertex.cells)) {
+    for (uint32_t step = 0; step < 2; ++step) {
+      vertex.Place(vertex.axes[step], vertex.cells[vertex.axes[step]]);
+    }
+    coder.SetMeter(normal_meter);
+    CodeAcross(coder, truth[vertex.axes[2]], &vertex);
+  }
+  return vertex.cells;
+}
+
+#define FOLPROM_INSTANTIATE(Coder)                                          \
+  template std::array<int32_t, 3> LightPositionModel::Code<Coder>(          \
+      Coder&, const Int3&, const RingShape&, const std::array<uint8_t, 3>&, \
+      const std::array<int32_t, 3>&, uint64_t*, uint64_t*);
+FOLPROM_INSTANTIATE(BitEncoder)
+FOLPROM_INSTANTIATE(BitDecoder)
+#undef FOLPROM_INSTANTIATE
+
+}  // namespace folprom

@@ -21,20 +21,20 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0x4eaaf307eb48e2c7;
-constexpr uint64_t kPaperHash = 0xa5c941980ba051e;
-constexpr uint64_t kSubtreesHash = 0xf53d255e83f00778;
-constexpr uint64_t kRangeHash = 0x648168003643229e;
-constexpr uint64_t kLeastEffortHash = 0x83c88839f206c75b;
-constexpr uint64_t kMostEffortHash = 0x6d5505e888371040;
-constexpr uint64_t kVoxelHash = 0xfe29168e5e619986;
-constexpr uint64_t kExactVoxelHash = 0x9823cceaab74b632;
-constexpr uint64_t kSubdividedHash = 0x3f018e47369c9f28;
-constexpr uint64_t kExactHash = 0x4dca56b984f53d29;
-constexpr uint64_t kExactRestsHash = 0x6cf8d60c9640ff45;
-constexpr uint64_t kOtherHash = 0x8e72ea0a9f6b4fc1;
-constexpr uint64_t kSoupHash = 0xf3789226fc6f6e32;
-constexpr uint64_t kAttributesHash = 0xa0b26856f782e604;
+constexpr uint64_t kDefaultHash = 0x17d8f996cf9be2a2;
+constexpr uint64_t kPaperHash = 0x20879b5ac11b1f61;
+constexpr uint64_t kSubtreesHash = 0x3ef860a77f7a35e;
+constexpr uint64_t kRangeHash = 0x533c2622101fbb94;
+constexpr uint64_t kLeastEffortHash = 0xe94e6f82337b9f32;
+constexpr uint64_t kMostEffortHash = 0x340dd78f74750622;
+constexpr uint64_t kVoxelHash = 0xbe973bcf207b71cb;
+constexpr uint64_t kExactVoxelHash = 0x2ec7959091a7f4b9;
+constexpr uint64_t kSubdividedHash = 0xd72bbf4cc41f48af;
+constexpr uint64_t kExactHash = 0x4c340fa5bf46e543;
+constexpr uint64_t kExactRestsHash = 0x8f87c9fb17342cac;
+constexpr uint64_t kOtherHash = 0x1a2255fa23a72486;
+constexpr uint64_t kSoupHash = 0x1599636e529ac976;
+constexpr uint64_t kAttributesHash = 0x249abf5ec3872a6d;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

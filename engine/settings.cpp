@@ -92,7 +92,8 @@ constexpr SettingKey kKeys[] = {
      "twentieths of the spacing", 0, 4},
     {"mixers", &S::mixers, "mixers that a decision averages, with offsets = \"lattice\"", "", 1, 3},
     {"models", &S::models,
-     "of cuts, with fan_cuts, and of positions, with offsets = \"lattice\": full, from all that the "
+     "of cuts, with fan_cuts, and of positions, with offsets = \"lattice\": full, from all that "
+     "the "
      "ring looks like; light, from a few tables, faster",
      "", 0, 0, kModels},
     {"lod_fit", &S::lod_fit,
@@ -146,8 +147,8 @@ CodecSettings WithEffort(CodecSettings settings, uint32_t effort) {
   // large ones smaller for they have fewer seams and models learn longer. The last looks at the
   // whole file alone: rings are even, and no early layer is told set by set.
   constexpr uint32_t k = 1024;
-  constexpr Preset kPresets[] = {{0, 1, 64 * k, 1, 0.015, 0.05},  {4, 1, 32 * k, 4, 0.015, 0.05},
-                                 {4, 1, 64 * k, 4, 0.015, 0.05},  {3, 2, 64 * k, 4, 0.015, 0.05},
+  constexpr Preset kPresets[] = {{0, 1, 64 * k, 1, 0.015, 0.05},  {4, 1, 64 * k, 4, 0.015, 0.05},
+                                 {4, 1, 96 * k, 4, 0.015, 0.05},  {3, 2, 96 * k, 4, 0.015, 0.05},
                                  {2, 2, 144 * k, 4, 0.015, 0.05}, {2, 2, 512 * k, 4, 0.015, 0.05},
                                  {1, 2, 512 * k, 4, 0.015, 0.05}, {1, 3, 512 * k, 4, 0.03, 0.05},
                                  {1, 3, 1024 * k, 1, 0.1, 0}};

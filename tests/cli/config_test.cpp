@@ -201,7 +201,7 @@ TEST_F(Config, KeysWinOverTheEffortOfTheFileAndTheFlagOverBoth) {
   const toml::table from_file = codec({});
   EXPECT_EQ(from_file["effort"].value<int>(), 1);
   EXPECT_EQ(from_file["density_step"].value<int>(), 3);
-  EXPECT_EQ(from_file["subtree_vertices"].value<int>(), 32768);
+  EXPECT_EQ(from_file["subtree_vertices"].value<int>(), 65536);
   EXPECT_EQ(from_file["models"].value<std::string>(), "light");
   const toml::table with_flag = codec({"--effort", "9"});
   EXPECT_EQ(with_flag["effort"].value<int>(), 9);

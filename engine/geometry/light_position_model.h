@@ -55,6 +55,7 @@ class LightPositionModel {
   std::vector<OnlineRegression<2>> fit_;  ///< by number of neighbours, in spacings
   ScaleTable along_scale_, across_scale_;
   LightSpokes spokes_;
+  uint32_t trials_ = 0;  ///< of the first, encoder only
   /// By step: without planes near, beside them, and on one, which.
   std::array<LightCellModel, 3> cells_, beside_planes_, planes_cells_;
   std::shared_ptr<const CoordinatePlanes> planes_;

@@ -203,6 +203,7 @@ TEST_F(Config, KeysWinOverTheEffortOfTheFileAndTheFlagOverBoth) {
   EXPECT_EQ(from_file["density_step"].value<int>(), 3);
   EXPECT_EQ(from_file["subtree_vertices"].value<int>(), 65536);
   EXPECT_EQ(from_file["models"].value<std::string>(), "light");
+  EXPECT_EQ(from_file["rounds_per_step"].value<int>(), 1);
   const toml::table with_flag = codec({"--effort", "9"});
   EXPECT_EQ(with_flag["effort"].value<int>(), 9);
   EXPECT_EQ(with_flag["density_step"].value<int>(), 1);

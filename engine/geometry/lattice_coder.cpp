@@ -6,25 +6,10 @@
 #include "engine/entropy/bit_coder.h"
 #include "engine/geometry/buckets.h"
 #include "engine/geometry/light_position_model.h"
+#include "engine/geometry/ring_buckets.h"
 
 namespace folprom {
 namespace {
-
-/// Place of the covariance of axes a and b in RingShape::covariance.
-double Covariance(const RingShape& ring, uint32_t a, uint32_t b) {
-  constexpr uint32_t kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-  return ring.covariance[kPlace[a][b]];
-}
-
-constexpr std::array<double, 8> kSideBounds{-1.2, -0.8, -0.45, -0.15, 0.15, 0.45, 0.8, 1.2};
-constexpr std::array<double, 4> kLeanBounds{-0.3, -0.1, 0.1, 0.3};
-constexpr std::array<double, 5> kEccentricityBounds{0.06, 0.12, 0.2, 0.3, 0.45};
-
-constexpr uint32_t kCountBuckets = 16;
-
-uint32_t CountBucket(const RingShape& ring) {
-  return std::clamp(ring.count, 3u, 10u) - 3 + (ring.is_open ? 8 : 0);
-}
 
 /// What the new vertex's offset along an axis may follow, in spacings. A hub with many neighbours
 /// next to it may have others very far away.
@@ -135,13 +120,8 @@ int32_t LatticeCoder::CodeAlong(Coder& coder, const Coordinate& at, NewVertex* v
   const RingShape& ring = vertex->ring;
   const uint32_t axis = at.axis, step = at.step, first = (ring.dominant + 1) % 3;
   const double inverse = vertex->inverse();
-  double variance = Covariance(ring, axis, axis), slope = 0;
-  if (step == 1) {
-    slope = Covariance(ring, first, axis) / vertex->variance_before;
-    variance = variance - slope * Covariance(ring, first, axis);
-  }
-  const double floor = 0.02 * ring.spacing * ring.spacing;
-  if (!(variance > floor)) variance = floor;
+  const auto [variance, slope] =
+      SpreadAlong(ring, axis, first, step == 1 ? &vertex->variance_before : nullptr);
   if (step == 0) vertex->variance_before = variance;
   const double width = std::sqrt(variance), straight = vertex->ahead[axis];
   if (has_density_ && step == 0) density_.First(axis, &axis_density_);
@@ -158,8 +138,8 @@ int32_t LatticeCoder::CodeAlong(Coder& coder, const Coordinate& at, NewVertex* v
     const double scale = kScalePerMiss * tangential_scale_.Of(place * 2 + p) * width / at.cell;
     predictions[p] = {(at.origin + means[p]) / at.cell, std::max(scale, 0.05)};
   }
-  const uint32_t lean = Bucket(ring.mean[axis] * inverse, kSideBounds);
-  const uint32_t side = step == 0 ? 4 : Bucket(vertex->offset[first] * inverse, kSideBounds);
+  const uint32_t lean = SideBucket(ring.mean[axis] * inverse);
+  const uint32_t side = step == 0 ? 4 : SideBucket(vertex->offset[first] * inverse);
   const std::array<uint32_t, 3> contexts{
       (step * 6 + vertex->eccentricity) * kCountBuckets + vertex->count,
       (lean * 9 + side) * 2 + step, OctaveBucket(width / at.cell) * 2 + step};
@@ -237,9 +217,7 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
   if (light_) {
     return CodeNewLightly(coder, old, ring, precision, truth, tangential_meter, normal_meter);
   }
-  NewVertex vertex{old, ring, CountBucket(ring), 0, {}};
-  const double off_centre = std::sqrt(Dot(ring.mean, ring.mean)) * vertex.inverse();
-  vertex.eccentricity = Bucket(off_centre, kEccentricityBounds);
+  NewVertex vertex{old, ring, CountBucket(ring), EccentricityBucket(ring), {}};
   for (uint32_t axis = 0; axis < 3; ++axis) {
     vertex.ahead[axis] = tangential_fit_[vertex.count].Predict(Features(ring, axis)) * ring.spacing;
   }

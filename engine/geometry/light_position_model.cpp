@@ -5,28 +5,16 @@
 #include <span>
 
 #include "engine/entropy/bit_coder.h"
-#include "engine/geometry/buckets.h"
+#include "engine/geometry/ring_buckets.h"
 
 namespace folprom {
 namespace {
 
-constexpr std::array<double, 5> kEccentricityBounds{0.06, 0.12, 0.2, 0.3, 0.45};
-constexpr std::array<double, 8> kSideBounds{-1.2, -0.8, -0.45, -0.15, 0.15, 0.45, 0.8, 1.2};
-constexpr uint32_t kCounts = 16, kEccentricities = 6, kWidths = 16;
-constexpr uint32_t kSides = 9, kNoSide = 4;
+constexpr uint32_t kWidths = 16;
 /// Of the places, on planes or not, of no, one and two coordinates before: 1 + 3 + 9.
 constexpr uint32_t kPlaces = 3, kKnown = 13;
 constexpr std::array<uint32_t, 3> kFirstKnown{0, 1, 4};
 constexpr uint32_t kMassSteps = 28;
-
-uint32_t CountBucket(const RingShape& ring) {
-  return std::clamp(ring.count, 3u, 10u) - 3 + (ring.is_open ? 8 : 0);
-}
-
-double Covariance(const RingShape& ring, uint32_t a, uint32_t b) {
-  constexpr uint32_t kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-  return ring.covariance[kPlace[a][b]];
-}
 
 /// On the lattice without its planes, the cell `at`, which is not on one, has the number at - (the
 /// number of planes below). The cell of a number.
@@ -66,10 +54,11 @@ LightPositionModel::LightPositionModel(const std::array<int32_t, 3>& lo,
                                        const std::array<int32_t, 3>& hi)
     : lo_(lo),
       hi_(hi),
-      fit_(kCounts, OnlineRegression<2>({2, 0})),
-      along_scale_(2 * kCounts * kEccentricities, 1),
+      fit_(kCountBuckets, OnlineRegression<2>({2, 0})),
+      along_scale_(2 * kCountBuckets * kEccentricityBuckets, 1),
       across_scale_(kWidths, 1),
-      cells_{LightCellModel(kSides), LightCellModel(kSides * kSides), LightCellModel()},
+      cells_{LightCellModel(kSideBuckets), LightCellModel(kSideBuckets * kSideBuckets),
+             LightCellModel()},
       beside_planes_(cells_),
       planes_cells_(cells_),
       on_plane_(kKnown * 2 * kMassSteps, kEvenState) {}
@@ -134,22 +123,17 @@ void LightPositionModel::CodeAlong(Coder& coder, uint32_t step, int32_t truth, V
   constexpr double kMost = 64;
   const RingShape& ring = vertex->ring;
   const uint32_t axis = vertex->axes[step], first = vertex->axes[0];
-  double variance = Covariance(ring, axis, axis), slope = 0;
-  if (step == 1) {
-    slope = Covariance(ring, first, axis) / vertex->variance_before;
-    variance = variance - slope * Covariance(ring, first, axis);
-  }
-  const double floor = 0.02 * ring.spacing * ring.spacing;
-  if (!(variance > floor)) variance = floor;
-  vertex->variance_before = variance;
+  const auto [variance, slope] =
+      SpreadAlong(ring, axis, first, step == 1 ? &vertex->variance_before : nullptr);
+  if (step == 0) vertex->variance_before = variance;
   const double width = std::sqrt(variance), straight = vertex->expected[axis];
   const double mean = straight + slope * vertex->miss_before;
-  const uint32_t place = (step * kCounts + vertex->count) * kEccentricities + vertex->eccentricity;
+  const uint32_t place =
+      (step * kCountBuckets + vertex->count) * kEccentricityBuckets + vertex->eccentricity;
   const double unit = vertex->unit(axis);
   const double scale = kScalePerMiss * along_scale_.Of(place) * width / unit;
-  uint32_t side = Bucket(straight * vertex->inverse, kSideBounds);
-  if (step == 1)
-    side = side * kSides + Bucket(vertex->offset[first] * vertex->inverse, kSideBounds);
+  uint32_t side = SideBucket(straight * vertex->inverse);
+  if (step == 1) side = side * kSideBuckets + SideBucket(vertex->offset[first] * vertex->inverse);
   vertex->Place(axis, CodeCell(coder, step, (vertex->origin(axis) + mean) / unit, scale, side,
                                truth, vertex));
   const double offset = vertex->offset[axis];
@@ -224,10 +208,8 @@ std::array<int32_t, 3> LightPositionModel::Code(
   const double inverse = 1 / ring.spacing;
   Vertex vertex{{old, ring, {first, (first + 1) % 3, ring.dominant}, shifts, {}, {}, {}},
                 CountBucket(ring),
-                0,
+                EccentricityBucket(ring),
                 inverse};
-  const double off_centre = std::sqrt(Dot(ring.mean, ring.mean)) * inverse;
-  vertex.eccentricity = Bucket(off_centre, kEccentricityBounds);
   for (uint32_t axis = 0; axis < 3; ++axis) {
     const auto feature = [&](const Vector3& from) {
       return std::clamp(from[axis] * inverse, -kMost, kMost);

@@ -1,0 +1,59 @@
+// Contexts that a ring gives, and how its neighbours lie along the axes of the lattice.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "engine/geometry/buckets.h"
+#include "engine/geometry/ring_shape.h"
+
+namespace folprom {
+
+inline constexpr uint32_t kCountBuckets = 16;
+/// Up to 3 neighbours, 4 .. 9, more; open rings apart from closed ones.
+inline uint32_t CountBucket(const RingShape& ring) {
+  return std::clamp(ring.count, 3u, 10u) - 3 + (ring.is_open ? 8 : 0);
+}
+
+inline constexpr uint32_t kEccentricityBuckets = 6;
+/// Of the distance of the neighbours' mean, in spacings.
+inline uint32_t EccentricityBucket(const RingShape& ring) {
+  constexpr std::array<double, kEccentricityBuckets - 1> kBounds{0.06, 0.12, 0.2, 0.3, 0.45};
+  return Bucket(std::sqrt(Dot(ring.mean, ring.mean)) * (1 / ring.spacing), kBounds);
+}
+
+inline constexpr uint32_t kSideBuckets = 9;
+/// Of a way along an axis, in spacings; 4 is next to 0.
+inline uint32_t SideBucket(double spacings) {
+  constexpr std::array<double, kSideBuckets - 1> kBounds{-1.2, -0.8, -0.45, -0.15,
+                                                         0.15, 0.45, 0.8,   1.2};
+  return Bucket(spacings, kBounds);
+}
+
+/// Of the neighbours along an axis, squared lattice units: what is left of it where they follow
+/// another one with this slope.
+struct RingSpread {
+  double variance, slope = 0;
+};
+
+inline double Covariance(const RingShape& ring, uint32_t a, uint32_t b) {
+  constexpr uint32_t kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  return ring.covariance[kPlace[a][b]];
+}
+
+/// first, first_variance: the other axis, and its own spread; null where none is known.
+inline RingSpread SpreadAlong(const RingShape& ring, uint32_t axis, uint32_t first,
+                              const double* first_variance) {
+  RingSpread spread{Covariance(ring, axis, axis)};
+  if (first_variance != nullptr) {
+    spread.slope = Covariance(ring, first, axis) / *first_variance;
+    spread.variance = spread.variance - spread.slope * Covariance(ring, first, axis);
+  }
+  const double floor = 0.02 * ring.spacing * ring.spacing;
+  if (!(spread.variance > floor)) spread.variance = floor;
+  return spread;
+}
+
+}  // namespace folprom

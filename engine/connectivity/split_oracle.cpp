@@ -20,7 +20,10 @@ SplitOracle::SplitOracle(uint32_t vertex_count, std::vector<Face> faces,
   corners_.resize(faces_.size() * 3);
   std::vector<uint32_t> cursor(corner_begin_.begin(), corner_begin_.end() - 1);
   for (uint32_t f = 0; f < faces_.size(); ++f) {
-    for (uint32_t i = 0; i < 3; ++i) corners_[cursor[faces_[f][i]]++] = 3 * f + i;
+    const auto [a, b, c] = faces_[f];
+    corners_[cursor[a]++] = {b, c, f};
+    corners_[cursor[b]++] = {c, a, f};
+    corners_[cursor[c]++] = {a, b, f};
   }
   face_label_.assign(faces_.size(), kNone);
 }
@@ -83,10 +86,9 @@ void SplitOracle::Scan(uint32_t vertex, std::span<const std::span<const uint32_t
   }
 }
 
-void SplitOracle::ScanCorner(uint32_t corner) {
-  uint32_t t = corner / 3;
-  uint32_t next = vertex_label_[faces_[t][NextCorner(corner) % 3]];
-  uint32_t previous = vertex_label_[faces_[t][PreviousCorner(corner) % 3]];
+void SplitOracle::ScanCorner(const Corner& corner) {
+  const uint32_t t = corner.face;
+  const uint32_t next = vertex_label_[corner.next], previous = vertex_label_[corner.previous];
   for (uint32_t label : {next, previous}) {
     if (label == moved_label_) continue;
     if (label == old_label_) {

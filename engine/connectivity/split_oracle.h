@@ -71,7 +71,12 @@ class SplitOracle {
     uint32_t face;   ///< original that becomes part of a new face
     uint32_t third;  ///< its vertex outside the two children
   };
-  void ScanCorner(uint32_t corner);
+  /// As its vertex sees a face: what a scan reads lies in one row.
+  struct Corner {
+    uint32_t next, previous;  ///< vertices, in the order of the face's orientation
+    uint32_t face;
+  };
+  void ScanCorner(const Corner& corner);
   PerNeighbour& At(uint32_t neighbour);
   Side SideOf(uint32_t moved_count, uint32_t total) const;
   void CommitEdges(const SplitStar& star);
@@ -81,7 +86,7 @@ class SplitOracle {
 
   std::vector<Face> faces_;
   std::vector<uint32_t> corner_begin_;  ///< per vertex, into corners_
-  std::vector<uint32_t> corners_;       ///< 3 * face + place
+  std::vector<Corner> corners_;
   // Originals carry labels, labels name the LOD's vertices and faces: when a set is halved only the
   // smaller half gets a new label.
   std::vector<uint32_t> vertex_label_, vertex_of_label_;

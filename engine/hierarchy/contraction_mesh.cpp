@@ -192,14 +192,26 @@ ContractionMesh::Bend ContractionMesh::BendAt(uint32_t v) const {
   return Bend::kFlat;
 }
 
+void ContractionMesh::PrefetchFaces(uint32_t v) const {
+  for (const uint32_t f : stars_.Of(v)) __builtin_prefetch(&faces_[f]);
+}
+
+void ContractionMesh::PrefetchCorners(uint32_t v) const {
+  for (const uint32_t f : stars_.Of(v)) {
+    for (const uint32_t corner : faces_[f]) __builtin_prefetch(&vertices_[corner]);
+  }
+}
+
 /// Faces that have collapsed to an edge stay in the star only while no other face of it joins v to
 /// the same neighbour.
 std::span<const uint32_t> ContractionMesh::CollectRing(uint32_t v) {
-  ring_.clear();
+  const uint32_t size = stars_.SizeOf(v);
+  if (ring_.size() < size_t{3} * size) ring_.resize(size_t{3} * size);
+  ring_size_ = 0;
   collapsed_.clear();
-  ++stamp_;
+  vertices_[v].stamp = ++stamp_;
   uint32_t kept = 0;
-  for (uint32_t i = 0; i < stars_.SizeOf(v); ++i) {
+  for (uint32_t i = 0; i < size; ++i) {
     const uint32_t f = stars_.At(v, i);
     for (uint32_t& corner : faces_[f]) corner = Find(corner);
     const auto [a, b, c] = faces_[f];
@@ -208,22 +220,24 @@ std::span<const uint32_t> ContractionMesh::CollectRing(uint32_t v) {
       continue;
     }
     stars_.At(v, kept++) = f;
-    for (uint32_t w : {a, b, c}) AddToRing(v, w);
+    for (uint32_t w : {a, b, c}) AddToRing(w);
   }
   for (uint32_t f : collapsed_) {
-    bool needed = false;
-    for (uint32_t corner : faces_[f]) needed = AddToRing(v, corner) || needed;
-    if (needed) stars_.At(v, kept++) = f;
+    const uint32_t before = ring_size_;
+    for (uint32_t corner : faces_[f]) AddToRing(corner);
+    if (ring_size_ > before) stars_.At(v, kept++) = f;
   }
   stars_.Shrink(v, kept);
-  return ring_;
+  return Ring();
 }
 
-bool ContractionMesh::AddToRing(uint32_t v, uint32_t w) {
-  if (w == v || w >= own_ || vertices_[w].stamp == stamp_) return false;
-  vertices_[w].stamp = stamp_;
-  ring_.push_back(w);
-  return true;
+/// Unless it was met before. Who was is as good as random: no branch goes by it.
+void ContractionMesh::AddToRing(uint32_t w) {
+  uint32_t& stamp = vertices_[w].stamp;
+  const bool is_new = stamp != stamp_ && w < own_;
+  stamp = stamp_;
+  ring_[ring_size_] = w;
+  ring_size_ += is_new ? 1 : 0;
 }
 
 float ContractionMesh::CostOf(uint32_t v, uint32_t target, float length_weight) const {
@@ -254,18 +268,18 @@ bool ContractionMesh::IsAllowed(uint32_t v, uint32_t target) {
   return CommonNeighbours(target) <= shared;
 }
 
-/// How many vertices of ring_ are neighbours of target; looks through whichever stars are smaller,
-/// since a hub's is looked at once for each of its spokes.
+/// How many vertices of the ring are neighbours of target; looks through whichever stars are
+/// smaller, since a hub's is looked at once for each of its spokes.
 uint32_t ContractionMesh::CommonNeighbours(uint32_t target) {
   uint32_t common = 0;
   size_t around = 0;
-  for (uint32_t w : ring_) around += w != target ? stars_.SizeOf(w) : 0;
+  for (uint32_t w : Ring()) around += w != target ? stars_.SizeOf(w) : 0;
   if (around < stars_.SizeOf(target)) {
-    for (uint32_t w : ring_) common += w != target && AreNeighbours(w, target) ? 1 : 0;
+    for (uint32_t w : Ring()) common += w != target && AreNeighbours(w, target) ? 1 : 0;
     return common;
   }
   const uint32_t first = ++stamp_, second = ++stamp_;
-  for (uint32_t w : ring_) vertices_[w].stamp = first;
+  for (uint32_t w : Ring()) vertices_[w].stamp = first;
   for (uint32_t f : stars_.Of(target)) {
     for (uint32_t& corner : faces_[f]) {
       corner = Find(corner);

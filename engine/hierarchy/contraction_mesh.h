@@ -30,6 +30,16 @@ class ContractionMesh {
   /// Is this an object of flat faces that meet in edges, as machines and buildings are?
   bool HasFacesAndEdges() const;
 
+  /// Asks for the memory of a vertex and of where its star is, once that is there of its star, then
+  /// of its faces, and then of their corners.
+  void PrefetchVertex(uint32_t v) const {
+    __builtin_prefetch(&vertices_[v]);
+    stars_.PrefetchList(v);
+  }
+  void PrefetchStar(uint32_t v) const { stars_.Prefetch(v); }
+  void PrefetchFaces(uint32_t v) const;
+  void PrefetchCorners(uint32_t v) const;
+
   /// The distinct neighbours of v, until the next call.
   std::span<const uint32_t> CollectRing(uint32_t v);
   /// Quadric error, and length_weight x area x length^2.
@@ -62,7 +72,8 @@ class ContractionMesh {
   void AddBoundaryPlanes();
   void AddBoundaryPlane(uint32_t a, uint32_t b, const Face& face);
   Bend BendAt(uint32_t v) const;
-  bool AddToRing(uint32_t v, uint32_t w);
+  void AddToRing(uint32_t w);
+  std::span<const uint32_t> Ring() const { return std::span(ring_).first(ring_size_); }
   uint32_t CommonNeighbours(uint32_t target);
   bool AreNeighbours(uint32_t v, uint32_t other);
 
@@ -71,7 +82,8 @@ class ContractionMesh {
   std::vector<Vertex> vertices_;  ///< own vertices, then a point per foreign corner
   std::vector<Face> faces_;
   BlockLists<uint32_t> stars_;
-  std::vector<uint32_t> ring_, collapsed_;
+  std::vector<uint32_t> ring_, collapsed_;  ///< ring_ has room for more than ring_size_
+  uint32_t ring_size_ = 0;
   uint32_t stamp_ = 0;
 };
 

@@ -50,6 +50,22 @@ class CostQueue {
     Remove(vertex);
     return vertex;
   }
+  /// One that is likely to be taken some turns after the one that this said last, for whoever asks
+  /// for memory early: none that is pushed or removed meanwhile is looked for. kNobody: nobody
+  /// knows.
+  uint32_t Peek() {
+    constexpr uint32_t kBehind = 6, kBucketsAhead = 4;
+    if (peeked_ == kNobody || bucket_[peeked_] != peeked_bucket_ || peeked_bucket_ < now_) {
+      peeked_bucket_ = now_;
+      peeked_ = first_[now_];
+      for (uint32_t i = 0; i < kBehind && peeked_ != kNobody; ++i) peeked_ = next_[peeked_];
+    } else {
+      peeked_ = next_[peeked_];
+    }
+    const uint32_t last = std::min(now_ + kBucketsAhead, kBuckets - 1);
+    while (peeked_ == kNobody && peeked_bucket_ < last) peeked_ = first_[++peeked_bucket_];
+    return peeked_;
+  }
   /// Costs below this are in the bucket from which was taken last, or before it.
   float Limit() const { return std::bit_cast<float>((now_ + 1) << kDropped); }
 
@@ -65,6 +81,7 @@ class CostQueue {
   std::vector<uint32_t> first_, next_, previous_;
   std::vector<uint16_t> bucket_;
   uint32_t now_ = 0;
+  uint32_t peeked_ = kNobody, peeked_bucket_ = 0;
 };
 
 }  // namespace folprom

@@ -1,6 +1,7 @@
 #include "engine/hierarchy/quadric_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -61,7 +62,10 @@ class Contractor {
     for (uint32_t v = mesh_.vertices(); v-- > 0;) {
       if (mesh_.IsLive(v)) Enqueue(v);
     }
-    for (uint32_t v = queue_.Take(); v != CostQueue::kNobody; v = queue_.Take()) Consider(v);
+    for (uint32_t v = queue_.Take(); v != CostQueue::kNobody; v = queue_.Take()) {
+      Prefetch(queue_.Peek());
+      Consider(v);
+    }
     JoinRemaining();
     SetTree tree = tree_.Flatten(positions_);
     tree.SetOnGrid(on_grid_);
@@ -90,6 +94,17 @@ class Contractor {
   void Enqueue(uint32_t v) {
     if (!CollectCandidates(v)) return;
     queue_.Push(v, std::min_element(candidates_.begin(), candidates_.end())->cost);
+  }
+
+  /// Each step reads what the one before it has asked for some turns ago.
+  void Prefetch(uint32_t v) {
+    if (v == CostQueue::kNobody) return;
+    const auto before = [&](uint32_t turns) { return ahead_[(turn_ - turns) % kTurns]; };
+    ahead_[++turn_ % kTurns] = v;
+    mesh_.PrefetchVertex(v);
+    mesh_.PrefetchStar(before(1));
+    mesh_.PrefetchFaces(before(3));
+    mesh_.PrefetchCorners(before(5));
   }
 
   /// Contracts v into its best neighbour, or puts it back with a higher cost.
@@ -191,6 +206,9 @@ class Contractor {
   float length_weight_ = 0;
   std::vector<uint8_t> forced_;
   std::vector<Candidate> candidates_;
+  static constexpr uint32_t kTurns = 8;
+  std::array<uint32_t, kTurns> ahead_{};  ///< vertices that will be considered
+  uint32_t turn_ = kTurns;
   bool on_grid_ = false;
   MergeTree tree_;
 };

@@ -143,6 +143,30 @@ TEST(CostQueue, ACostBelowTheLastComesAtOnce) {
   EXPECT_EQ(queue.Take(), CostQueue::kNobody);
 }
 
+TEST(CostQueue, PeeksOnlyAtWhatIsInItAndMostlyBeforeItIsTaken) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> cost(1, 4);
+  constexpr uint32_t kVertices = 20'000;
+  CostQueue queue(kVertices);
+  for (uint32_t v = 0; v < kVertices; ++v) queue.Push(v, cost(random));
+  std::vector<bool> is_in(kVertices, true), was_seen(kVertices, false);
+  uint32_t taken = 0, seen_before = 0;
+  for (uint32_t v = queue.Take(); v != CostQueue::kNobody; v = queue.Take()) {
+    is_in[v] = false;
+    ++taken;
+    seen_before += was_seen[v] ? 1 : 0;
+    const uint32_t peeked = queue.Peek();
+    if (peeked != CostQueue::kNobody) {
+      ASSERT_TRUE(is_in[peeked]);
+      was_seen[peeked] = true;
+    }
+    const uint32_t other = random() % kVertices;
+    if (taken % 3 == 0 && is_in[other]) queue.Push(other, 4 + cost(random));
+  }
+  EXPECT_EQ(taken, kVertices);
+  EXPECT_GT(seen_before, kVertices / 2);
+}
+
 TEST(QuadricTree, IsSoundOnSheets) {
   for (uint32_t side : {2u, 3u, 10u, 41u}) {
     for (double height : {0.0, 4000.0}) {

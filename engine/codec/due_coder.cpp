@@ -40,11 +40,12 @@ bool DueCoder::CodeAsking(Coder& coder, double least_spacing, const SubtreeLod& 
 }
 
 template <class Coder>
-bool DueCoder::CodeDue(Coder& coder, SubtreeLod& lod, uint32_t set, double spacing,
+bool DueCoder::CodeDue(Coder& coder, SubtreeLod& lod, SetStar* star, double spacing,
                        const SubtreeTruth* truth) {
+  const uint32_t set = star->set;
   bool due = false;
   if constexpr (Coder::kEncoding) due = IsDue(*truth, set);
-  due = model_.Code(coder, SignsOf(lod, set, spacing), due);
+  due = model_.Code(coder, SignsOf(lod, star, spacing), due);
   lod.sets[set].asked = due ? 0 : step_;
   return due;
 }
@@ -68,12 +69,13 @@ bool DueCoder::IsDue(const SubtreeTruth& truth, uint32_t set) const {
   return std::sqrt(std::sqrt(fourth)) >= least_spacing_;
 }
 
-DueSigns DueCoder::SignsOf(const SubtreeLod& lod, uint32_t set, double spacing) {
+DueSigns DueCoder::SignsOf(const SubtreeLod& lod, SetStar* star, double spacing) const {
+  const uint32_t set = star->set;
   DueSigns signs;
   signs.spacing = spacing / least_spacing_;
   signs.scale = static_cast<double>(lod.sets[set].scale) / least_spacing_;
-  lod.Measure(set, &star_);
-  const RingPlane ring = lod.PlaneAt(star_);
+  lod.MeasureFaces(star);
+  const RingPlane ring = lod.PlaneAt(*star);
   const double fourth = ring.spacing * ring.spacing * ring.height_range * settings_.longest;
   signs.distortion = std::sqrt(std::sqrt(fourth)) / least_spacing_;
   signs.asked = lod.sets[set].asked + 1 == step_;
@@ -89,7 +91,7 @@ DueSigns DueCoder::SignsOf(const SubtreeLod& lod, uint32_t set, double spacing) 
 #define FOLPROM_INSTANTIATE(Coder)                                                           \
   template bool DueCoder::CodeAsking<Coder>(Coder&, double, const SubtreeLod&,               \
                                             std::span<const uint32_t>, const SubtreeTruth*); \
-  template bool DueCoder::CodeDue<Coder>(Coder&, SubtreeLod&, uint32_t, double,              \
+  template bool DueCoder::CodeDue<Coder>(Coder&, SubtreeLod&, SetStar*, double,              \
                                          const SubtreeTruth*);
 FOLPROM_INSTANTIATE(BitEncoder)
 FOLPROM_INSTANTIATE(BitDecoder)

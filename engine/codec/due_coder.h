@@ -27,16 +27,17 @@ class DueCoder {
   template <class Coder>
   bool CodeAsking(Coder& coder, double least_spacing, const SubtreeLod& lod,
                   std::span<const uint32_t> open, const SubtreeTruth* truth);
-  /// Is the set split in this step, which asks. spacing: of the set now.
+  /// Is the set of the star split in this step, which asks. spacing: of the set now. Measures the
+  /// star's faces.
   template <class Coder>
-  bool CodeDue(Coder& coder, SubtreeLod& lod, uint32_t set, double spacing,
+  bool CodeDue(Coder& coder, SubtreeLod& lod, SetStar* star, double spacing,
                const SubtreeTruth* truth);
   void Visit(LearnedStateVisitor& visitor) { model_.Visit(visitor); }
 
  private:
   bool IsDue(const SubtreeTruth& truth, uint32_t set) const;
   bool Pays(const SubtreeLod& lod, std::span<const uint32_t> open, const SubtreeTruth& truth) const;
-  DueSigns SignsOf(const SubtreeLod& lod, uint32_t set, double spacing);
+  DueSigns SignsOf(const SubtreeLod& lod, SetStar* star, double spacing) const;
 
   DueSettings settings_;
   uint32_t step_ = 0;  ///< the first is 1
@@ -44,7 +45,6 @@ class DueCoder {
   bool asking_ = false;
   MixedModel<1> still_asking_;
   DueModel model_;
-  SetStar star_;  ///< scratch
 };
 
 }  // namespace folprom

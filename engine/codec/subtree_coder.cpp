@@ -167,7 +167,7 @@ uint32_t SubtreeCoder::CodeChildCount(Coder& coder, uint32_t set, double spacing
     *hint = grid_->Expect(lod_, set);
     return grid_->CodeLeaf(coder, lod_, set, spacing, *hint, count == 1) ? 1 : 2;
   }
-  lod_.Measure(set, &star_);
+  lod_.MeasureFaces(&star_);
   const LeafSigns signs = LeafSignsOf(lod_, star_, spacing);
   if (leaf_model_.Code(coder, signs, count == 1)) return 1;
   if (lattice_coder_) return 2;
@@ -218,8 +218,7 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, const GridHint& hin
     position = grid_->CodePosition(coder, kept, hint, position);
     lattice_coder_->AddExact();
   } else {
-    // Unless it was just asked whether the set is a leaf, which leaves all around it as it was.
-    if (grid_ || lod_.size() == 1) lod_.Measure(set, &star_);
+    lod_.MeasureFaces(&star_);
     position = lattice_coder_->CodeNew(coder, kept, lod_.ShapeAround(star_), precision_.precision(),
                                        position, &meters->offsets.rho, &meters->offsets.z);
   }
@@ -315,7 +314,8 @@ void SubtreeCoder::CodeLatticeRefinement(Coder& coder, const SubtreeTruth* truth
     if (!lattice_coder_->IsCoarser(vertex, precision_.precision())) continue;
     Int3 position;
     if constexpr (Coder::kEncoding) position = truth->VertexPosition(vertex);
-    lod_.Measure(vertex, &star_);
+    lod_.MeasureSpokes(vertex, &star_);
+    lod_.MeasureFaces(&star_);
     lod_.positions[vertex] =
         lattice_coder_->Refine(coder, vertex, lod_.positions[vertex], lod_.PlaneAt(star_),
                                precision_.precision(), position);

@@ -95,7 +95,7 @@ class SubtreeCoder {
   void AskFamily(Coder& coder, uint32_t set, SubtreeTruth* truth, CostMeters* meters);
   /// Sets in an order in which each has neighbours before it.
   void OrderAlongSurface();
-  /// Is a single vertex or is split.
+  /// Is a single vertex or is split. Its star's spokes are measured.
   template <class Coder>
   void CodeSet(Coder& coder, uint32_t set, double spacing, SubtreeTruth* truth, CostMeters* meters);
   /// Number of children, 1 for a single vertex. The hint is set for sets of a grid.

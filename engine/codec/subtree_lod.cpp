@@ -30,18 +30,30 @@ const std::vector<Int3>& SubtreeLod::Ring(uint32_t set) {
   return ring_;
 }
 
-void SubtreeLod::Measure(uint32_t set, SetStar* star) const {
+double SubtreeLod::MeasureSpokes(uint32_t set, SetStar* star) const {
   const auto spokes = complex.Spokes(set);
-  const auto corners = complex.Corners(set);
   if (star->all_spokes.size() < spokes.size()) star->all_spokes.resize(spokes.size());
-  if (star->all_faces.size() < corners.size()) star->all_faces.resize(corners.size());
   star->set = set;
+  star->has_faces = false;
   star->ring = std::span(star->all_spokes).first(spokes.size());
-  star->faces = std::span(star->all_faces).first(corners.size());
   const LanePoint centre(positions[set]);
+  double sum = 0;
   for (size_t n = 0; n < spokes.size(); ++n) {
-    star->all_spokes[n] = SpokeBetween(centre, LanePoint(positions[spokes[n].target]));
+    const RingSpoke spoke = SpokeBetween(centre, LanePoint(positions[spokes[n].target]));
+    star->all_spokes[n] = spoke;
+    sum = sum + spoke.z_length[1];
   }
+  if (spokes.empty()) return static_cast<double>(sets[set].scale);
+  return sum / static_cast<double>(spokes.size());
+}
+
+void SubtreeLod::MeasureFaces(SetStar* star) const {
+  if (star->has_faces) return;
+  const auto corners = complex.Corners(star->set);
+  if (star->all_faces.size() < corners.size()) star->all_faces.resize(corners.size());
+  star->has_faces = true;
+  star->faces = std::span(star->all_faces).first(corners.size());
+  const LanePoint centre(positions[star->set]);
   Pair normal_xy = Both(0);
   double normal_z = 0;
   for (size_t n = 0; n < corners.size(); ++n) {

@@ -26,6 +26,7 @@ struct SetRecord {
 struct SetStar {
   uint32_t set = kNone;
   std::span<const RingSpoke> ring;  ///< in the order of its spokes
+  bool has_faces = false;           ///< those of this set; false: the next two are of another
   std::span<const FanFace> faces;   ///< in the order of its corners
   Vector3 normal{0, 0, 0};          ///< sum over the faces, each twice as long as its face is large
   // What the lists above are part of; never smaller than it was.
@@ -50,7 +51,10 @@ class SubtreeLod {
   double Spacing(uint32_t set) const;
   /// Positions of the neighbours, valid until the next call.
   const std::vector<Int3>& Ring(uint32_t set);
-  void Measure(uint32_t set, SetStar* star) const;
+  /// The spokes of a set's star; returns its spacing.
+  double MeasureSpokes(uint32_t set, SetStar* star) const;
+  /// And the faces, once.
+  void MeasureFaces(SetStar* star) const;
   RingPlane PlaneAt(const SetStar& star) const {
     return MeasurePlane(star.ring, star.normal, static_cast<double>(sets[star.set].scale));
   }

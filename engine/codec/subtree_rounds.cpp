@@ -102,7 +102,7 @@ void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* t
     // Spacings fall as neighbours split, so one that was too small before is not measured again.
     float known = open_spacings_[i];
     if (static_cast<double>(known) >= least_spacing) {
-      const double spacing = lod_.Spacing(set);
+      const double spacing = lod_.MeasureSpokes(set, &star_);
       known = lod_.sets[set].spacing = static_cast<float>(spacing);
       if (spacing >= least_spacing) {
         CodeSet(coder, set, spacing, truth, meters);
@@ -148,9 +148,9 @@ void SubtreeCoder::AskFamily(Coder& coder, uint32_t set, SubtreeTruth* truth, Co
   family_.assign(1, set);
   for (size_t i = 0; i < family_.size(); ++i) {
     const uint32_t member = family_[i];
-    const double spacing = lod_.Spacing(member);
+    const double spacing = lod_.MeasureSpokes(member, &star_);
     coder.SetMeter(&meters->split);
-    if (lod_.size() > 1 && !due_.CodeDue(coder, lod_, member, spacing, truth)) {
+    if (lod_.size() > 1 && !due_.CodeDue(coder, lod_, &star_, spacing, truth)) {
       asked_.push_back(member);
       continue;
     }

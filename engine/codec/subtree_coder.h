@@ -79,7 +79,7 @@ class SubtreeCoder {
   template <class Coder>
   void CodeSplits(Coder& coder, SubtreeTruth* truth, CostMeters* meters);
   void RememberSpacings();
-  void PrefetchBehind(size_t place, double least_spacing) const;
+  void PrefetchBehind(size_t place, double least_spacing, const SubtreeTruth* truth) const;
   /// Splits sets down to a spacing; 0: all.
   template <class Coder>
   void CodeRound(Coder& coder, double least_spacing, SubtreeTruth* truth, CostMeters* meters);

@@ -21,7 +21,10 @@ void SubtreeLod::PrefetchRecord(uint32_t set) const {
 
 void SubtreeLod::PrefetchRing(uint32_t set) const {
   complex.PrefetchFaces(set);
-  for (const auto& spoke : complex.Spokes(set)) __builtin_prefetch(&positions[spoke.target]);
+  for (const auto& spoke : complex.Spokes(set)) {
+    __builtin_prefetch(&positions[spoke.target]);
+    __builtin_prefetch(&sets[spoke.target]);
+  }
 }
 
 const std::vector<Int3>& SubtreeLod::Ring(uint32_t set) {

@@ -76,15 +76,25 @@ void SubtreeCoder::RememberSpacings() {
   for (size_t i = 0; i < open_.size(); ++i) open_spacings_[i] = lod_.sets[open_[i]].spacing;
 }
 
-void SubtreeCoder::PrefetchBehind(size_t place, double least_spacing) const {
+void SubtreeCoder::PrefetchBehind(size_t place, double least_spacing,
+                                  const SubtreeTruth* truth) const {
   constexpr size_t kRecord = 9, kStar = 6, kRing = 3;
   const auto is_due = [&](size_t i) {
     return static_cast<double>(open_spacings_[i]) >= least_spacing;
   };
   if (place + kRecord >= open_.size()) return;
-  if (is_due(place + kRecord)) lod_.PrefetchRecord(open_[place + kRecord]);
-  if (is_due(place + kStar)) lod_.PrefetchStar(open_[place + kStar]);
-  if (is_due(place + kRing)) lod_.PrefetchRing(open_[place + kRing]);
+  if (is_due(place + kRecord)) {
+    lod_.PrefetchRecord(open_[place + kRecord]);
+    if (truth != nullptr) truth->PrefetchSet(open_[place + kRecord]);
+  }
+  if (is_due(place + kStar)) {
+    lod_.PrefetchStar(open_[place + kStar]);
+    if (truth != nullptr) truth->PrefetchNode(open_[place + kStar]);
+  }
+  if (is_due(place + kRing)) {
+    lod_.PrefetchRing(open_[place + kRing]);
+    if (truth != nullptr) truth->PrefetchChildren(open_[place + kRing]);
+  }
 }
 
 template <class Coder>
@@ -98,7 +108,7 @@ void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* t
   size_t kept = 0;
   for (size_t i = 0; i < open_.size(); ++i) {
     const uint32_t set = open_[i];
-    PrefetchBehind(i, least_spacing);
+    PrefetchBehind(i, least_spacing, truth);
     // Spacings fall as neighbours split, so one that was too small before is not measured again.
     float known = open_spacings_[i];
     if (static_cast<double>(known) >= least_spacing) {

@@ -22,6 +22,11 @@ class SubtreeTruth : public RestTruth {
   virtual Int3 RootRepresentative() const = 0;
   /// The sets come from rows and columns of regular grids.
   virtual bool OnGrid() const = 0;
+  /// Asks for the memory of where a set's node is, once that is there of the node, and then of its
+  /// children.
+  virtual void PrefetchSet(uint32_t) const {}
+  virtual void PrefetchNode(uint32_t) const {}
+  virtual void PrefetchChildren(uint32_t) const {}
   /// Number of children of the set, 1 when it is a single vertex.
   virtual uint32_t ChildCount(uint32_t set) const = 0;
   /// What the set adds to the error of an LOD: area times distance, lattice units cubed.

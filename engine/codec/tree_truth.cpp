@@ -70,6 +70,13 @@ TreeTruth::TreeTruth(const SubtreeChunk& chunk, uint32_t subtree, const SetTree&
   node_of_set_.push_back(0);
 }
 
+void TreeTruth::PrefetchChildren(uint32_t set) const {
+  const SetTree::Node& node = tree_.node(node_of_set_[set]);
+  for (uint32_t i = 0; i < node.child_count; ++i) {
+    __builtin_prefetch(&tree_.node(node.first_child + i));
+  }
+}
+
 uint32_t TreeTruth::ChildCount(uint32_t set) const {
   return std::max(tree_.node(node_of_set_[set]).child_count, 1u);
 }

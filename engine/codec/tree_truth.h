@@ -23,6 +23,11 @@ class TreeTruth final : public SubtreeTruth {
 
   Int3 RootRepresentative() const override { return tree_.node(0).representative; }
   bool OnGrid() const override { return tree_.on_grid(); }
+  void PrefetchSet(uint32_t set) const override { __builtin_prefetch(&node_of_set_[set]); }
+  void PrefetchNode(uint32_t set) const override {
+    __builtin_prefetch(&tree_.node(node_of_set_[set]));
+  }
+  void PrefetchChildren(uint32_t set) const override;
   uint32_t ChildCount(uint32_t set) const override;
   double Distortion(uint32_t set) const override {
     return tree_.node(node_of_set_[set]).distortion;

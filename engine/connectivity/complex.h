@@ -84,6 +84,7 @@ class Complex {
   void PrefetchFaces(uint32_t vertex) const {
     for (const uint32_t corner : Corners(vertex)) __builtin_prefetch(&corners_[corner]);
   }
+  void PrefetchEdge(uint32_t half_edge) const { __builtin_prefetch(&half_edges_[half_edge]); }
   /// Number of edges.
   uint32_t Degree(uint32_t vertex) const { return spokes_.SizeOf(vertex); }
   uint32_t VertexOf(uint32_t corner) const { return corners_[corner].vertex; }

@@ -84,38 +84,40 @@ void SplitCoder::Visit(LearnedStateVisitor& visitor) {
 }
 
 void SplitCoder::Gather(const Complex& complex, uint32_t vertex) {
-  star_.vertex = vertex;
-  star_.neighbours.clear();
-  star_.faces.clear();
   if (slot_of_vertex_.size() < complex.vertex_count()) {
     slot_of_vertex_.resize(complex.vertex_count() + complex.vertex_count() / 2, kNone);
   }
-  for (const auto& [target, half_edge] : complex.Spokes(vertex)) {
-    slot_of_vertex_[target] = static_cast<uint32_t>(star_.neighbours.size());
-    SplitStar::Neighbour neighbour{};
-    neighbour.vertex = target;
-    neighbour.half_edge = half_edge;
-    neighbour.first_face = neighbour.new_edge = neighbour.new_face = kNone;
-    star_.neighbours.push_back(neighbour);
+  const auto spokes = complex.Spokes(vertex);
+  const auto corners = complex.Corners(vertex);
+  star_.vertex = vertex;
+  star_.neighbours.resize(spokes.size());
+  star_.faces.resize(corners.size());
+  for (uint32_t n = 0; n < spokes.size(); ++n) {
+    const auto [target, half_edge] = spokes[n];
+    complex.PrefetchEdge(half_edge);
+    complex.PrefetchVertex(target);
+    slot_of_vertex_[target] = n;
+    star_.neighbours[n] = {.vertex = target, .half_edge = half_edge};
   }
-  for (const uint32_t corner : complex.Corners(vertex)) {
-    uint32_t index = static_cast<uint32_t>(star_.faces.size());
-    SplitStar::StarFace face{};
-    face.corner = corner;
-    face.new_face = kNone;
-    const std::array<uint32_t, 2> ends = complex.Opposite(corner);
-    for (uint32_t i = 0; i < 2; ++i) {
-      uint32_t slot = slot_of_vertex_[ends[i]];
-      face.end[i] = slot;
-      face.next_link[i] = kNone;
-      if (slot == kNone) continue;
-      face.next_link[i] = star_.neighbours[slot].first_face;
-      star_.neighbours[slot].first_face = 2 * index + i;
-      ++star_.neighbours[slot].face_count;
-    }
-    star_.faces.push_back(face);
+  for (uint32_t f = 0; f < corners.size(); ++f) {
+    const auto [next, previous] = complex.Opposite(corners[f]);
+    star_.faces[f] = {.corner = corners[f],
+                      .end = {slot_of_vertex_[next], slot_of_vertex_[previous]}};
   }
   for (const auto& neighbour : star_.neighbours) slot_of_vertex_[neighbour.vertex] = kNone;
+}
+
+void SplitCoder::LinkFaces() {
+  for (uint32_t f = 0; f < star_.faces.size(); ++f) {
+    SplitStar::StarFace& face = star_.faces[f];
+    for (uint32_t i = 0; i < 2; ++i) {
+      if (face.end[i] == kNone) continue;
+      SplitStar::Neighbour& neighbour = star_.neighbours[face.end[i]];
+      face.next_link[i] = neighbour.first_face;
+      neighbour.first_face = 2 * f + i;
+      ++neighbour.face_count;
+    }
+  }
 }
 
 void SplitCoder::Measure(const std::vector<Int3>& positions, const Known& known) {
@@ -149,6 +151,7 @@ bool SplitCoder::CodeFan(Coder& coder, const Complex& complex, const std::vector
   for (uint32_t place = 0; place < fan_.places; ++place) {
     if (fan_.IsOutside(place)) continue;
     const uint32_t vertex = star_.neighbours[fan_.neighbour[place]].vertex;
+    complex.PrefetchStar(vertex);
     spokes_[place] = {relative(positions[vertex]), complex.Degree(vertex),
                       static_cast<double>(vertex) / vertices, vertex > star_.vertex,
                       vertices - last_split_[vertex]};
@@ -415,6 +418,7 @@ uint32_t SplitCoder::Code(Coder& coder, Complex& complex, const std::vector<Int3
     return star_.second;
   }
   last_split_[vertex] = complex.vertex_count();
+  LinkFaces();
   Measure(positions, known);
   star_.second = complex.AddVertex();
   star_.child_edge = kNone;

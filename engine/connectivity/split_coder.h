@@ -76,6 +76,8 @@ class SplitCoder {
 
  private:
   void Gather(const Complex& complex, uint32_t vertex);
+  /// Which faces each neighbour is in; fans go without.
+  void LinkFaces();
   void Measure(const std::vector<Int3>& positions, const Known& known);
   /// Returns whether the star is a fan that stays one; it is parted then, but for the new faces.
   template <class Coder>

@@ -55,6 +55,11 @@ class SplitOracle {
   const std::vector<Face>& faces() const { return faces_; }
 
  private:
+  /// As its vertex sees a face: what a scan reads lies in one row.
+  struct Corner {
+    uint32_t next, previous;  ///< vertices, in the order of the face's orientation
+    uint32_t face;
+  };
   struct PerNeighbour {
     uint32_t stamp = 0;
     uint32_t edges = 0;      ///< pairs of corners of one original: one moved, one here
@@ -70,11 +75,6 @@ class SplitOracle {
   struct OpenedFace {
     uint32_t face;   ///< original that becomes part of a new face
     uint32_t third;  ///< its vertex outside the two children
-  };
-  /// As its vertex sees a face: what a scan reads lies in one row.
-  struct Corner {
-    uint32_t next, previous;  ///< vertices, in the order of the face's orientation
-    uint32_t face;
   };
   void ScanCorner(const Corner& corner);
   PerNeighbour& At(uint32_t neighbour);

@@ -11,13 +11,14 @@ namespace folprom {
 /// To which child a neighbour or a face belongs after the split. A neighbour of both is a pivot.
 enum Side : uint8_t { kUndecided = 0, kFirst = 1, kSecond = 2, kBoth = 3 };
 
-/// The star of a split vertex. Filled by SplitCoder::Gather, decided by SplitCoder::Code.
+/// The star of a split vertex. Filled by SplitCoder::Gather and
+/// LinkFaces, decided by SplitCoder::Code.
 struct SplitStar {
   struct Neighbour {
     uint32_t vertex;
-    uint32_t half_edge;   ///< starts at the split vertex
-    uint32_t first_face;  ///< list of link entries, 2 * index into faces + end
-    uint32_t face_count;
+    uint32_t half_edge;  ///< starts at the split vertex
+    uint32_t first_face = kNone;  ///< list of link entries, 2 * index into faces + end
+    uint32_t face_count = 0;
     uint32_t new_edge = kNone;  ///< edge to the second child, when pivot
     uint32_t new_face = kNone;  ///< face (first child, second child, vertex), when it exists
     uint32_t regularity = 0;    ///< order of pivots, smaller is more regular
@@ -30,7 +31,7 @@ struct SplitStar {
   struct StarFace {
     uint32_t corner;  ///< the split vertex's corner
     uint32_t end[2];  ///< next and previous vertex of the face: index into neighbours or kNone
-    uint32_t next_link[2];      ///< next link entry at that end
+    uint32_t next_link[2] = {kNone, kNone};  ///< next link entry at that end
     uint32_t new_face = kNone;  ///< the second child's copy, when it goes to both
     Side side = kUndecided;
   };

@@ -1,6 +1,8 @@
 #include "engine/codec/leaf_model.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "engine/entropy/bit_coder.h"
 #include "engine/entropy/cell_model.h"
@@ -26,6 +28,24 @@ uint32_t Ratio(double a, double b) {
   return static_cast<uint32_t>(std::clamp(value, 2.0, kRatios - 1.0));
 }
 
+/// The logarithm, base 2, of a over b by a line from power to power of 2, in 1/4096.
+int64_t RoughOctaves(double a, double b) {
+  return (static_cast<int64_t>(std::bit_cast<uint64_t>(a)) -
+          static_cast<int64_t>(std::bit_cast<uint64_t>(b))) >>
+         40;
+}
+/// Half octaves above 1.
+uint32_t RoughSize(double length) {
+  return static_cast<uint32_t>(
+      std::clamp<int64_t>(RoughOctaves(length, 1) >> 11, 0, int64_t{kCoarse} - 1));
+}
+/// Twelfths of octaves around 32; 1: a length is missing.
+uint32_t RoughRatio(double a, double b) {
+  if (!(a > 0) || !(b > 0)) return 1;
+  return static_cast<uint32_t>(
+      std::clamp<int64_t>(32 + (12 * RoughOctaves(a, b) >> 12), 2, int64_t{kRatios} - 1));
+}
+
 /// 0: no neighbours, 1: none or hardly one is a leaf, 2 .. 5: about a fourth less than so many are.
 uint32_t ShareOfLeaves(const LeafSigns& signs) {
   const uint32_t count = signs.leaves + signs.others;
@@ -36,26 +56,39 @@ uint32_t ShareOfLeaves(const LeafSigns& signs) {
 
 }  // namespace
 
-LeafModel::LeafModel()
+LeafModel::LeafModel(bool light)
     : model_({kFine, kCounts * kCounts * kCoarse, kRatios * kShares, kRatios * kShares, kRatios * 4,
               kRatios / 4 * 16 * kBends},
-             kShares) {}
+             kShares) {
+  if (light) {
+    light_.emplace(std::array{kCounts * kCounts * kCoarse, kRatios * kShares, kRatios * 4},
+                   kShares);
+  }
+}
 
 template <class Coder>
 bool LeafModel::Code(Coder& coder, const LeafSigns& signs, bool leaf) {
-  const uint32_t fine = Octaves(signs.spacing, 8, kFine);
-  const uint32_t coarse = Octaves(signs.spacing, 2, kCoarse);
   const uint32_t leaves = std::min(signs.leaves, kCounts - 1);
   const uint32_t others = std::min(signs.others, kCounts - 1);
   const uint32_t share = ShareOfLeaves(signs);
+  const uint32_t counts = (leaves * kCounts + others) * kCoarse;
+  const uint32_t few = std::min(share, 3u);
+  if (light_) {
+    const uint32_t ratio = signs.leaves == 0 ? 0 : RoughRatio(signs.spacing, signs.leaf_spacing);
+    return light_->Code(coder,
+                        {counts + RoughSize(signs.spacing), ratio * kShares + share,
+                         RoughRatio(signs.spacing, signs.scale) * 4 + few},
+                        share, leaf);
+  }
+  const uint32_t fine = Octaves(signs.spacing, 8, kFine);
+  const uint32_t coarse = Octaves(signs.spacing, 2, kCoarse);
   const uint32_t ratio = signs.leaves == 0 ? 0 : Ratio(signs.spacing, signs.leaf_spacing);
   const uint32_t reach = signs.leaves == 0 ? 0 : Ratio(signs.leaf_distance, signs.leaf_spacing);
   const uint32_t made = Ratio(signs.spacing, signs.scale);
   const auto bend = static_cast<uint32_t>(std::min(signs.bend * 8, kBends - 1.0));
   return model_.Code(coder,
-                     {fine, (leaves * kCounts + others) * kCoarse + coarse, ratio * kShares + share,
-                      reach * kShares + share, made * 4 + std::min(share, 3u),
-                      (ratio / 4 * 16 + fine / 8) * kBends + bend},
+                     {fine, counts + coarse, ratio * kShares + share, reach * kShares + share,
+                      made * 4 + few, (ratio / 4 * 16 + fine / 8) * kBends + bend},
                      share, leaf);
 }
 

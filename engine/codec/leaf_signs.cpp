@@ -23,7 +23,7 @@ LeafSigns LeafSignsOf(const SubtreeLod& lod, const SetStar& star, double spacing
   }
   // Neighbours at the same place have no height either.
   const double length = std::sqrt(Dot(star.normal, star.normal));
-  if (spacing > 0 && length > 0) {
+  if (star.has_faces && spacing > 0 && length > 0) {
     signs.bend = HeightRange(star.ring, star.normal) / length / spacing;
   }
   return signs;

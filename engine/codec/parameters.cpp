@@ -26,12 +26,11 @@ OffsetSettings CodecParameters::offsets() const {
 }
 
 LatticeSettings CodecParameters::lattice() const {
-  return {settings.density_step, settings.mixers, settings.models == Models::kLight};
+  return {settings.density_step, settings.mixers, has_light_models()};
 }
 
 ConnectivitySettings CodecParameters::connectivity() const {
-  return {settings.fan_cuts, settings.pivot_order, settings.nearer_child,
-          settings.models == Models::kLight};
+  return {settings.fan_cuts, settings.pivot_order, settings.nearer_child, has_light_models()};
 }
 
 namespace {

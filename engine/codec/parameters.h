@@ -34,6 +34,7 @@ struct CodecParameters {
     return settings.hierarchy == Hierarchy::kQuadric ? 2 : settings.children;
   }
   bool fits_lods() const { return settings.lod_fit && settings.offsets == Offsets::kLattice; }
+  bool has_light_models() const { return settings.models == Models::kLight; }
   bool has_rests() const { return exact && exact->step.has_rests; }
   /// Where models start; null: at nothing.
   const InitialStatistics* start() const;

@@ -13,6 +13,10 @@
 namespace folprom {
 namespace {
 
+/// With light models a child that a round made is taken to have so much of its parent's spacing
+/// until a round looks at it: it need not be measured to be left alone.
+constexpr float kChildSpacing = 0.85F;
+
 /// Coordinate `value` in [lo, hi], all equally likely.
 template <class Coder>
 int32_t CodeCoordinate(Coder& coder, int32_t lo, int32_t hi, int32_t value) {
@@ -44,6 +48,7 @@ SubtreeCoder::SubtreeCoder(const CodecParameters& parameters, const SubtreeShape
       shape_(shape),
       split_coder_(parameters.connectivity()),
       due_(DueSettingsOf(parameters, shape.vertices)),
+      leaf_model_(parameters.has_light_models()),
       exceptions_(shape.mesh_faces) {
   if (parameters.settings.offsets == Offsets::kLattice) {
     lattice_coder_.emplace(shape.box_lo, shape.box_hi, parameters.lattice());
@@ -167,7 +172,7 @@ uint32_t SubtreeCoder::CodeChildCount(Coder& coder, uint32_t set, double spacing
     *hint = grid_->Expect(lod_, set);
     return grid_->CodeLeaf(coder, lod_, set, spacing, *hint, count == 1) ? 1 : 2;
   }
-  lod_.MeasureFaces(&star_);
+  if (!parameters_.has_light_models()) lod_.MeasureFaces(&star_);
   const LeafSigns signs = LeafSignsOf(lod_, star_, spacing);
   if (leaf_model_.Code(coder, signs, count == 1)) return 1;
   if (lattice_coder_) return 2;
@@ -219,8 +224,12 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, const GridHint& hin
     lattice_coder_->AddExact();
   } else {
     lod_.MeasureFaces(&star_);
-    position = lattice_coder_->CodeNew(coder, kept, lod_.ShapeAround(star_), precision_.precision(),
-                                       position, &meters->offsets.rho, &meters->offsets.z);
+    const auto code = [&](const auto& ring) {
+      return lattice_coder_->CodeNew(coder, kept, ring, precision_.precision(), position,
+                                     &meters->offsets.rho, &meters->offsets.z);
+    };
+    position = parameters_.has_light_models() ? code(lod_.LightRingAround(star_))
+                                              : code(lod_.ShapeAround(star_));
   }
   const uint32_t added =
       CodeBinarySplit(coder, set, kept, position, hint.found ? &hint : nullptr, truth, meters);
@@ -232,9 +241,13 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, const GridHint& hin
     attributes_->CodeNew(coder, {lod_.complex, lod_.positions, added, set}, values,
                          meters->attributes.empty() ? nullptr : &meters->attributes);
   }
+  float known = lod_.sets[set].spacing;
+  if (known < SetRecord::kUnmeasured) {
+    known = parameters_.has_light_models() ? kChildSpacing * known : SetRecord::kUnmeasured;
+  }
   for (uint32_t child : {set, added}) {
     lod_.sets[child].scale = Distance(position, kept);
-    lod_.sets[child].spacing = SetRecord::kUnmeasured;
+    lod_.sets[child].spacing = known;
     open_.push_back(child);
   }
 }

@@ -79,4 +79,11 @@ RingShape SubtreeLod::ShapeAround(const SetStar& star) const {
   return shape;
 }
 
+LightRing SubtreeLod::LightRingAround(const SetStar& star) const {
+  LightRing ring =
+      MeasureLightRing(star.ring, star.normal, static_cast<double>(sets[star.set].scale));
+  ring.is_open = star.faces.size() < star.ring.size();
+  return ring;
+}
+
 }  // namespace folprom

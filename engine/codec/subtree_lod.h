@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/connectivity/complex.h"
+#include "engine/geometry/light_ring.h"
 #include "engine/geometry/ring_shape.h"
 #include "engine/mesh/types.h"
 
@@ -15,7 +16,8 @@ namespace folprom {
 struct SetRecord {
   static constexpr float kUnmeasured = 3e38f;
   float scale = 0;  ///< spacing to assume without neighbours, lattice units
-  /// When last measured, never far below the present one; of a leaf, when it was found to be one.
+  /// When last measured, never far below the present one; of a leaf, when it was found to be one;
+  /// with light models, of a child not measured yet, a part of its parent's.
   float spacing = kUnmeasured;
   uint32_t border = kNone;  ///< number of the border set
   uint32_t asked = 0;       ///< the last step in which it was not due, 0: none since its split
@@ -59,6 +61,8 @@ class SubtreeLod {
     return MeasurePlane(star.ring, star.normal, static_cast<double>(sets[star.set].scale));
   }
   RingShape ShapeAround(const SetStar& star) const;
+  /// It looks at the star's spokes.
+  LightRing LightRingAround(const SetStar& star) const;
 
  private:
   std::vector<Int3> ring_;

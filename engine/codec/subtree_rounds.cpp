@@ -116,7 +116,9 @@ void SubtreeCoder::CodeRound(Coder& coder, double least_spacing, SubtreeTruth* t
       known = lod_.sets[set].spacing = static_cast<float>(spacing);
       if (spacing >= least_spacing) {
         CodeSet(coder, set, spacing, truth, meters);
-        open_spacings_.resize(open_.size(), SetRecord::kUnmeasured);
+        for (size_t child = open_spacings_.size(); child < open_.size(); ++child) {
+          open_spacings_.push_back(lod_.sets[open_[child]].spacing);
+        }
         continue;
       }
     }

@@ -130,6 +130,7 @@ void LightFanModel::WeighArcs() {
 
 void LightFanModel::Weigh(const Fan& fan) {
   const uint32_t n = places_, whole = groups_ * kLanes;
+  float* const from = from_.data() + kMost;
   // Neighbours between the pivots go to the second child.
   float inside = 0, most_from = kLeast * 100, most_to = most_from;
   for (uint32_t k = 0; k < n; ++k) {
@@ -150,9 +151,9 @@ void LightFanModel::Weigh(const Fan& fan) {
     }
     to_[k] = end + inside;
     inside = inside + between;
-    from_[k] = begin - inside;
+    from[k] = begin - inside;
     most_to = std::max(most_to, to_[k]);
-    most_from = std::max(most_from, from_[k]);
+    most_from = std::max(most_from, from[k]);
   }
   most_to = std::max(most_to, most_to + inside);
   for (uint32_t k = 0; k < n; ++k) to_[n + k] = to_[k] + inside;
@@ -160,15 +161,17 @@ void LightFanModel::Weigh(const Fan& fan) {
     StoreLanes(FastExp2(GreaterOf(LoadLanes(&to_[k]) - most_to, AllLanes(kLeast))), &to_[k]);
   }
   for (uint32_t k = 0; k < whole; k += kLanes) {
-    StoreLanes(FastExp2(GreaterOf(LoadLanes(&from_[k]) - most_from, AllLanes(kLeast))), &from_[k]);
+    StoreLanes(FastExp2(GreaterOf(LoadLanes(&from[k]) - most_from, AllLanes(kLeast))), &from[k]);
   }
-  for (uint32_t k = n; k < whole; ++k) from_[k] = to_[n + k] = 0;
+  for (uint32_t k = n; k < whole; ++k) to_[n + k] = 0;
+  // Whoever looks at any place before or behind finds that no cut begins there.
+  for (uint32_t k = n; k < 2 * n + kLanes; ++k) from[k] = 0;
   WeighArcs();
   for (uint32_t k = 0; k < whole; k += kLanes) {
-    const Lanes from = LoadLanes(&from_[k]);
+    const Lanes begin = LoadLanes(&from[k]);
     Lanes sum = AllLanes(0);
     for (uint32_t d = 1; d < n; ++d) {
-      const Lanes weight = from * LoadLanes(&to_[k + d]) * arc_[d];
+      const Lanes weight = begin * LoadLanes(&to_[k + d]) * arc_[d];
       StoreLanes(weight, &weight_[d][k]);
       sum = sum + weight;
     }
@@ -227,30 +230,32 @@ FanCut LightFanModel::CodeOther(Coder& coder, FanCut likeliest, FanCut truth) co
 void LightFanModel::Learn(const Fan& fan, FanCut truth) {
   const uint32_t n = places_;
   const float part = -kRate / total_;
-  Row<kMost> begins, ends{};
-  // Of cuts that hold the face at place 0: those that begin there, or run over it.
-  float first_inside = begins_[0];
   for (uint32_t d = 1; d < n; ++d) {
-    const Row<kMost>& weight = weight_[d];
-    float sum = 0;
-    for (uint32_t i = 0; i < n - d; ++i) {
-      sum = sum + weight[i];
-      ends[i + d] = ends[i + d] + weight[i];
+    Lanes sum = AllLanes(0);
+    for (uint32_t k = 0; k < groups_ * kLanes; k += kLanes) {
+      sum = sum + LoadLanes(&weight_[d][k]);
     }
-    sum = sum + weight[n - d];
-    ends[0] = ends[0] + weight[n - d];
-    for (uint32_t i = n - d + 1; i < n; ++i) {
-      sum = sum + weight[i];
-      first_inside = first_inside + weight[i];
-      ends[i + d - n] = ends[i + d - n] + weight[i];
-    }
-    const float error = part * sum + (d == Distance(truth) ? kRate : 0);
+    const float error = part * SumOf(sum) + (d == Distance(truth) ? kRate : 0);
     float& second = tables_.arc_second[std::min(d - 1, kArcs - 1)];
     float& first = tables_.arc_first[std::min(n - 1 - d, kArcs - 1)];
     second = second + error;
     first = first + error;
   }
-  for (uint32_t k = 0; k < n; ++k) begins[k] = part * begins_[k], ends[k] = part * ends[k];
+  // Cuts by where they end, those that run over place 0 by n + that.
+  Row<2 * kMost> ending{};
+  for (uint32_t e = 0; e < 2 * n; e += kLanes) {
+    Lanes begun = AllLanes(0);
+    for (uint32_t d = 1; d < n; ++d) begun = begun + LoadLanes(&from_[kMost + e - d]) * arc_[d];
+    StoreLanes(begun * LoadLanes(&to_[e]), &ending[e]);
+  }
+  // Of cuts that hold the face at place 0: those that begin there, or run over it.
+  float first_inside = begins_[0];
+  Row<kMost> begins, ends;
+  for (uint32_t k = 0; k < n; ++k) {
+    if (k > 0) first_inside = first_inside + ending[n + k];
+    begins[k] = part * begins_[k];
+    ends[k] = part * (ending[k] + ending[n + k]);
+  }
   begins[truth.begin] = begins[truth.begin] + kRate;
   ends[truth.end] = ends[truth.end] + kRate;
   const bool holds_first = truth.begin == 0 || (truth.begin > truth.end && truth.end > 0);

@@ -69,7 +69,9 @@ class LightFanModel {
   uint32_t places_ = 0, groups_ = 0;
   Steps steps_;
   Row<2 * kMost> to_;  ///< weight of an end at a place; then of one behind place 0 again
-  alignas(16) Row<kMost> from_, arc_;  ///< of a begin; by distance from begin to end
+  /// Of a begin, place 0 behind so many that are never one.
+  alignas(16) Row<3 * kMost> from_{};
+  alignas(16) Row<kMost> arc_;  ///< by distance from begin to end
   /// Of cuts by distance from begin to end, and begin.
   alignas(16) std::array<Row<kMost>, kMost> weight_;
   alignas(16) Row<kMost> begins_;  ///< of all cuts with this begin

@@ -189,13 +189,13 @@ int32_t LatticeCoder::CodeAcross(Coder& coder, const Coordinate& at, const NewVe
 }
 
 template <class Coder>
-Int3 LatticeCoder::CodeNewLightly(Coder& coder, const Int3& old, const RingShape& ring,
-                                  LatticePrecision precision, const Int3& truth,
-                                  uint64_t* tangential_meter, uint64_t* normal_meter) {
+Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const LightRing& ring,
+                           LatticePrecision precision, const Int3& truth,
+                           uint64_t* tangential_meter, uint64_t* normal_meter) {
   Shifts shifts;
   std::array<int32_t, 3> cells;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const uint32_t shift = axis == ring.dominant ? precision.normal : precision.tangential;
+    const uint32_t shift = axis == ring.axes[2] ? precision.normal : precision.tangential;
     shifts[axis] = static_cast<uint8_t>(shift);
     cells[axis] = At(truth, axis) >> shift;
   }
@@ -214,9 +214,6 @@ Int3 LatticeCoder::CodeNew(Coder& coder, const Int3& old, const RingShape& ring,
                            uint64_t* tangential_meter, uint64_t* normal_meter) {
   Int3 result;
   Shifts shifts;
-  if (light_) {
-    return CodeNewLightly(coder, old, ring, precision, truth, tangential_meter, normal_meter);
-  }
   NewVertex vertex{old, ring, CountBucket(ring), EccentricityBucket(ring), {}};
   for (uint32_t axis = 0; axis < 3; ++axis) {
     vertex.ahead[axis] = tangential_fit_[vertex.count].Predict(Features(ring, axis)) * ring.spacing;
@@ -292,6 +289,8 @@ Int3 LatticeCoder::Refine(Coder& coder, uint32_t vertex, const Int3& known, cons
 
 #define FOLPROM_INSTANTIATE(Coder)                                                                 \
   template Int3 LatticeCoder::CodeNew<Coder>(Coder&, const Int3&, const RingShape&,                \
+                                             LatticePrecision, const Int3&, uint64_t*, uint64_t*); \
+  template Int3 LatticeCoder::CodeNew<Coder>(Coder&, const Int3&, const LightRing&,                \
                                              LatticePrecision, const Int3&, uint64_t*, uint64_t*); \
   template Int3 LatticeCoder::Refine<Coder>(Coder&, uint32_t, const Int3&, const RingPlane&,       \
                                             LatticePrecision, const Int3&);

@@ -14,6 +14,7 @@
 #include "engine/entropy/cell_model.h"
 #include "engine/entropy/mixed_model.h"
 #include "engine/entropy/online_regression.h"
+#include "engine/geometry/light_ring.h"
 #include "engine/geometry/plane_model.h"
 #include "engine/geometry/ring_shape.h"
 #include "engine/geometry/spoke_model.h"
@@ -54,6 +55,10 @@ class LatticeCoder {
   template <class Coder>
   Int3 CodeNew(Coder& coder, const Int3& old, const RingShape& ring, LatticePrecision precision,
                const Int3& truth, uint64_t* tangential_meter, uint64_t* normal_meter);
+  /// The same with light models.
+  template <class Coder>
+  Int3 CodeNew(Coder& coder, const Int3& old, const LightRing& ring, LatticePrecision precision,
+               const Int3& truth, uint64_t* tangential_meter, uint64_t* normal_meter);
 
   /// Does the vertex know less than the precision asks for, whatever its normal.
   bool IsCoarser(uint32_t vertex, LatticePrecision precision) const {
@@ -77,11 +82,6 @@ class LatticeCoder {
                    const std::array<uint32_t, N>& contexts,
                    const std::array<CellPrediction, 2>& predictions, const AxisDensity* measured,
                    Model* model, CellModel<N + 1, 2, 1>* on_planes);
-  /// CodeNew with light models.
-  template <class Coder>
-  Int3 CodeNewLightly(Coder& coder, const Int3& old, const RingShape& ring,
-                      LatticePrecision precision, const Int3& truth, uint64_t* tangential_meter,
-                      uint64_t* normal_meter);
   template <class Coder>
   int32_t CodeAlong(Coder& coder, const Coordinate& at, NewVertex* vertex);
   template <class Coder>

@@ -41,6 +41,16 @@ inline uint32_t OddsStep(double odds, int least, uint32_t count) {
   return static_cast<uint32_t>(std::clamp<int64_t>(step, 0, int64_t{count} - 1));
 }
 
+/// The same of odds a : b, by their logarithms, which a line from power to power of 2 stands for.
+template <int kPerOctaveBits>
+inline uint32_t OddsStepOf(double a, double b, int least, uint32_t count) {
+  const int shift = 52 - kPerOctaveBits;
+  const int64_t octaves = static_cast<int64_t>(std::bit_cast<uint64_t>(a)) -
+                          static_cast<int64_t>(std::bit_cast<uint64_t>(b));
+  const int64_t step = (octaves >> shift) - (int64_t{least} << kPerOctaveBits);
+  return static_cast<uint32_t>(std::clamp<int64_t>(step, 0, int64_t{count} - 1));
+}
+
 class LightCellModel {
  public:
   /// sides: number of contexts of the first two decisions.
@@ -58,8 +68,7 @@ class LightCellModel {
   using Row = std::array<PlainState, kSteps>;
   static Row FirstRow();
   static PlainState* StateAt(Row* row, double for_true, double for_false) {
-    const double odds = (for_true + 1e-12) / (for_false + 1e-12);
-    return &(*row)[OddsStep<2>(odds, kLeastOdds, kSteps)];
+    return &(*row)[OddsStepOf<2>(for_true + 1e-12, for_false + 1e-12, kLeastOdds, kSteps)];
   }
 
   std::vector<Row> upper_;                 ///< by side context

@@ -67,7 +67,7 @@ template <class Coder>
 int32_t LightPositionModel::CodeCell(Coder& coder, uint32_t step, double mean, double scale,
                                      uint32_t side_context, int32_t truth, Vertex* vertex) {
   constexpr double kLeastScale = 0.04;
-  const uint32_t axis = vertex->axes[step], shift = vertex->shifts[axis];
+  const uint32_t axis = vertex->ring.axes[step], shift = vertex->shifts[axis];
   const int32_t lo = vertex->lo[axis], hi = vertex->hi[axis];
   const CellLogistic density(mean, std::max(scale, kLeastScale));
   const uint32_t before = kFirstKnown[step] + vertex->known;
@@ -120,11 +120,12 @@ int32_t LightPositionModel::CodeCell(Coder& coder, uint32_t step, double mean, d
 /// Along the surface.
 template <class Coder>
 void LightPositionModel::CodeAlong(Coder& coder, uint32_t step, int32_t truth, Vertex* vertex) {
-  constexpr double kMost = 64;
-  const RingShape& ring = vertex->ring;
-  const uint32_t axis = vertex->axes[step], first = vertex->axes[0];
-  const auto [variance, slope] =
-      SpreadAlong(ring, axis, first, step == 1 ? &vertex->variance_before : nullptr);
+  constexpr double kMost = 64, kLeastVariance = 0.02;
+  const LightRing& ring = vertex->ring;
+  const uint32_t axis = vertex->ring.axes[step], first = vertex->ring.axes[0];
+  const double slope = step == 0 ? 0 : ring.covariance / vertex->variance_before;
+  const double variance = std::max(ring.variance[step] - slope * ring.covariance,
+                                   kLeastVariance * ring.spacing * ring.spacing);
   if (step == 0) vertex->variance_before = variance;
   const double width = std::sqrt(variance), straight = vertex->expected[axis];
   const double mean = straight + slope * vertex->miss_before;
@@ -151,11 +152,11 @@ void LightPositionModel::CodeAlong(Coder& coder, uint32_t step, int32_t truth, V
 /// Across the surface.
 template <class Coder>
 void LightPositionModel::CodeAcross(Coder& coder, int32_t truth, Vertex* vertex) {
-  const RingShape& ring = vertex->ring;
-  const uint32_t axis = vertex->axes[2];
-  const double unit = vertex->unit(axis), bent = ring.MeetQuadric(vertex->offset);
-  const double width =
-      (ring.fit_error + 0.1 * ring.height_range) / std::fabs(ring.normal[axis]) + 0.25 * unit;
+  const LightRing& ring = vertex->ring;
+  const uint32_t axis = vertex->ring.axes[2];
+  const double unit = vertex->unit(axis);
+  const double bent = ring.Across(vertex->offset[ring.axes[0]], vertex->offset[ring.axes[1]]);
+  const double width = ring.miss + 0.1 * ring.range + 0.25 * unit;
   const uint32_t bucket = OddsStep<1>(width / unit, -3, kWidths);
   const double scale = kScalePerMiss * across_scale_.Of(bucket) * width / unit;
   vertex->Place(axis,
@@ -170,10 +171,10 @@ void LightPositionModel::CodeCells(Coder& coder, const std::array<int32_t, 3>& t
                                    Vertex* vertex) {
   coder.SetMeter(meters.tangential);
   for (uint32_t step = 0; step < 2; ++step) {
-    CodeAlong(coder, step, truth[vertex->axes[step]], vertex);
+    CodeAlong(coder, step, truth[vertex->ring.axes[step]], vertex);
   }
   coder.SetMeter(meters.normal);
-  CodeAcross(coder, truth[vertex->axes[2]], vertex);
+  CodeAcross(coder, truth[vertex->ring.axes[2]], vertex);
 }
 
 bool LightPositionModel::PaysOnSpoke(const Vertex& vertex, const std::array<int32_t, 3>& truth) {
@@ -189,9 +190,9 @@ bool LightPositionModel::PaysOnSpoke(const Vertex& vertex, const std::array<int3
   CodePlain(on, flag, true);
   if (!spokes_.Code(on, vertex, truth, &trial.cells)) {
     for (uint32_t step = 0; step < 2; ++step) {
-      trial.Place(vertex.axes[step], truth[vertex.axes[step]]);
+      trial.Place(vertex.ring.axes[step], truth[vertex.ring.axes[step]]);
     }
-    CodeAcross(on, truth[vertex.axes[2]], &trial);
+    CodeAcross(on, truth[vertex.ring.axes[2]], &trial);
   }
   Vertex beside = vertex;
   CodePlain(off, flag, false);
@@ -201,15 +202,12 @@ bool LightPositionModel::PaysOnSpoke(const Vertex& vertex, const std::array<int3
 
 template <class Coder>
 std::array<int32_t, 3> LightPositionModel::Code(
-    Coder& coder, const Int3& old, const RingShape& ring, const std::array<uint8_t, 3>& shifts,
+    Coder& coder, const Int3& old, const LightRing& ring, const std::array<uint8_t, 3>& shifts,
     const std::array<int32_t, 3>& truth, uint64_t* tangential_meter, uint64_t* normal_meter) {
   constexpr double kMost = 64;
-  const uint32_t first = (ring.dominant + 1) % 3;
   const double inverse = 1 / ring.spacing;
-  Vertex vertex{{old, ring, {first, (first + 1) % 3, ring.dominant}, shifts, {}, {}, {}},
-                CountBucket(ring),
-                EccentricityBucket(ring),
-                inverse};
+  Vertex vertex{
+      {old, ring, shifts, {}, {}, {}}, CountBucket(ring), EccentricityBucket(ring), inverse};
   for (uint32_t axis = 0; axis < 3; ++axis) {
     const auto feature = [&](const Vector3& from) {
       return std::clamp(from[axis] * inverse, -kMost, kMost);
@@ -234,17 +232,17 @@ std::array<int32_t, 3> LightPositionModel::Code(
   }
   if (!spokes_.Code(coder, vertex, truth, &vertex.cells)) {
     for (uint32_t step = 0; step < 2; ++step) {
-      vertex.Place(vertex.axes[step], vertex.cells[vertex.axes[step]]);
+      vertex.Place(vertex.ring.axes[step], vertex.cells[vertex.ring.axes[step]]);
     }
     coder.SetMeter(normal_meter);
-    CodeAcross(coder, truth[vertex.axes[2]], &vertex);
+    CodeAcross(coder, truth[vertex.ring.axes[2]], &vertex);
   }
   return vertex.cells;
 }
 
 #define FOLPROM_INSTANTIATE(Coder)                                          \
   template std::array<int32_t, 3> LightPositionModel::Code<Coder>(          \
-      Coder&, const Int3&, const RingShape&, const std::array<uint8_t, 3>&, \
+      Coder&, const Int3&, const LightRing&, const std::array<uint8_t, 3>&, \
       const std::array<int32_t, 3>&, uint64_t*, uint64_t*);
 FOLPROM_INSTANTIATE(BitEncoder)
 FOLPROM_INSTANTIATE(BitDecoder)

@@ -11,8 +11,8 @@
 #include "engine/entropy/cell_model.h"
 #include "engine/entropy/online_regression.h"
 #include "engine/geometry/light_cell_model.h"
+#include "engine/geometry/light_ring.h"
 #include "engine/geometry/light_spokes.h"
-#include "engine/geometry/ring_shape.h"
 #include "engine/mesh/coordinate_planes.h"
 #include "engine/mesh/types.h"
 
@@ -27,7 +27,7 @@ class LightPositionModel {
   /// Codes the cells, of 2^shifts lattice units by axis, of the vertex that a split of `old` adds;
   /// truth: its own, encoder only. The meters take the cost along and across the surface.
   template <class Coder>
-  std::array<int32_t, 3> Code(Coder& coder, const Int3& old, const RingShape& ring,
+  std::array<int32_t, 3> Code(Coder& coder, const Int3& old, const LightRing& ring,
                               const std::array<uint8_t, 3>& shifts,
                               const std::array<int32_t, 3>& truth, uint64_t* tangential_meter,
                               uint64_t* normal_meter);

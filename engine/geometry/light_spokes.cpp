@@ -40,7 +40,7 @@ double LightSpokes::PlaceOn(const Vertex& vertex, uint32_t neighbour, uint32_t a
 bool LightSpokes::IsAt(const Vertex& vertex, uint32_t neighbour,
                        const std::array<int32_t, 3>& cells) {
   for (uint32_t step = 0; step < 2; ++step) {
-    const uint32_t axis = vertex.axes[step];
+    const uint32_t axis = vertex.ring.axes[step];
     const double centre = static_cast<double>(cells[axis]) + 0.5;
     if (!(std::fabs(centre - PlaceOn(vertex, neighbour, axis)) <= kReach)) return false;
   }
@@ -95,10 +95,10 @@ bool LightSpokes::Code(Coder& coder, const Vertex& vertex, const std::array<int3
   for (uint32_t axis = 0; axis < 3; ++axis) {
     place[axis] = PlaceOn(vertex, order[rank].neighbour, axis);
   }
-  const uint32_t across = vertex.axes[2];
+  const uint32_t across = vertex.ring.axes[2];
   const double off = static_cast<double>(truth[across]) - std::floor(place[across]);
   for (uint32_t step = 0; step < 3; ++step) {
-    const uint32_t axis = vertex.axes[step];
+    const uint32_t axis = vertex.ring.axes[step];
     if (step == 2 && !CodePlain(coder, &straight_, std::fabs(off) <= 1)) return false;
     const int64_t cell = CodeBeside(coder, step, place[axis], truth[axis]);
     (*cells)[axis] =

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "engine/entropy/plain_decision.h"
-#include "engine/geometry/ring_shape.h"
+#include "engine/geometry/light_ring.h"
 #include "engine/mesh/types.h"
 
 namespace folprom {
@@ -16,12 +16,11 @@ class LightSpokes {
  public:
   LightSpokes();
 
-  /// A vertex whose coordinates are coded as cells of 2^shifts lattice units, first the two axes
-  /// along the surface.
+  /// A vertex whose coordinates are coded as cells of 2^shifts lattice units, in the
+  /// order of the ring's axes.
   struct Vertex {
     const Int3& old;
-    const RingShape& ring;
-    std::array<uint32_t, 3> axes;
+    const LightRing& ring;
     std::array<uint8_t, 3> shifts;  ///< by axis, as all cells
     Vector3 expected;               ///< place, relative to the old vertex
     std::array<int32_t, 3> lo, hi;  ///< cells

@@ -13,13 +13,15 @@ namespace folprom {
 
 inline constexpr uint32_t kCountBuckets = 16;
 /// Up to 3 neighbours, 4 .. 9, more; open rings apart from closed ones.
-inline uint32_t CountBucket(const RingShape& ring) {
+template <class Ring>
+uint32_t CountBucket(const Ring& ring) {
   return std::clamp(ring.count, 3u, 10u) - 3 + (ring.is_open ? 8 : 0);
 }
 
 inline constexpr uint32_t kEccentricityBuckets = 6;
 /// Of the distance of the neighbours' mean, in spacings.
-inline uint32_t EccentricityBucket(const RingShape& ring) {
+template <class Ring>
+uint32_t EccentricityBucket(const Ring& ring) {
   constexpr std::array<double, kEccentricityBuckets - 1> kBounds{0.06, 0.12, 0.2, 0.3, 0.45};
   return Bucket(std::sqrt(Dot(ring.mean, ring.mean)) * (1 / ring.spacing), kBounds);
 }

@@ -40,23 +40,6 @@ void FitBend(RingShape* shape, std::span<const LocalPoint> local) {
   for (double& value : shape->bend) value = value * unit;
 }
 
-Vector3 AnyNormal(std::span<const RingSpoke> ring, const Vector3& mean) {
-  // Without faces: across the two that span most of those which follow each other in the list.
-  Vector3 best{0, 0, 0};
-  double most = 0;
-  for (size_t i = 0; i + 1 < ring.size(); ++i) {
-    Vector3 cross = Cross(ring[i].way(), ring[i + 1].way());
-    double size = Dot(cross, cross);
-    if (size > most) {
-      most = size;
-      best = cross;
-    }
-  }
-  if (most > 0) return best;
-  Vector3 cross = Cross(mean, {0, 0, 1});
-  return Dot(cross, cross) > 0 ? Cross(cross, mean) : Vector3{1, 0, 0};
-}
-
 Vector3 Divided(Pair xy, double z, double by) {
   const Pair parts = xy / Both(by);
   return {parts[0], parts[1], z / by};
@@ -132,6 +115,24 @@ double RingShape::MeetQuadric(const Vector3& offset) const {
   return std::clamp(along, level - most, level + most);
 }
 
+Vector3 NormalOr(const Vector3& normal, std::span<const RingSpoke> ring, const Vector3& mean) {
+  if (Dot(normal, normal) > 0) return normal;
+  // Without faces: across the two that span most of those which follow each other in the list.
+  Vector3 best{0, 0, 0};
+  double most = 0;
+  for (size_t i = 0; i + 1 < ring.size(); ++i) {
+    Vector3 cross = Cross(ring[i].way(), ring[i + 1].way());
+    double size = Dot(cross, cross);
+    if (size > most) {
+      most = size;
+      best = cross;
+    }
+  }
+  if (most > 0) return best;
+  Vector3 cross = Cross(mean, {0, 0, 1});
+  return Dot(cross, cross) > 0 ? Cross(cross, mean) : Vector3{1, 0, 0};
+}
+
 RingPlane MeasurePlane(std::span<const RingSpoke> ring, const Vector3& normal, double scale) {
   RingPlane plane;
   plane.count = static_cast<uint32_t>(ring.size());
@@ -149,7 +150,7 @@ RingPlane MeasurePlane(std::span<const RingSpoke> ring, const Vector3& normal, d
   plane.mean = Divided(xy, z_length[0], count);
   plane.spacing = z_length[1] / count;
   if (!(plane.spacing > 0)) plane.spacing = 1;
-  plane.normal = Dot(normal, normal) > 0 ? normal : AnyNormal(ring, plane.mean);
+  plane.normal = NormalOr(normal, ring, plane.mean);
   const double length = std::sqrt(Dot(plane.normal, plane.normal));
   for (double& value : plane.normal) value = value / length;
   for (uint32_t i = 0; i < 3; ++i) {

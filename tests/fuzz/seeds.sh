@@ -38,6 +38,14 @@ awk '$1 == "v" { for (i = 2; i < 5; ++i) if (i != 2 + NR % 3) $i = int($i / 16 +
 encode planes "$scans/voxels.obj" --bits 10 <<EOF
 $coarse
 EOF
+encode light "$scans/scan.ply" --bits 9 --subtree-vertices 30 <<EOF
+$coarse
+models = "light"
+EOF
+encode light_planes "$scans/voxels.obj" --bits 9 <<EOF
+$coarse
+models = "light"
+EOF
 encode exact "$scans/scan.ply" --exact --subtree-vertices 30 <<EOF
 $coarse
 EOF

@@ -31,9 +31,12 @@ std::vector<Asked> Regular(size_t count) {
   return asked;
 }
 
-TEST(LeafModel, GivesEveryAnswerBackAndLearnsWhatSpacingsSay) {
+/// Light or not.
+class LeafModelOf : public testing::TestWithParam<bool> {};
+
+TEST_P(LeafModelOf, GivesEveryAnswerBackAndLearnsWhatSpacingsSay) {
   const std::vector<Asked> asked = Regular(4000);
-  LeafModel written, read;
+  LeafModel written(GetParam()), read(GetParam());
   BitEncoder encoder;
   for (const Asked& one : asked) written.Code(encoder, one.signs, one.leaf);
   const auto bytes = encoder.TakeSegment();
@@ -43,8 +46,8 @@ TEST(LeafModel, GivesEveryAnswerBackAndLearnsWhatSpacingsSay) {
   for (const Asked& one : asked) ASSERT_EQ(read.Code(decoder, one.signs, false), one.leaf);
 }
 
-TEST(LeafModel, TakesSignsOfAnySize) {
-  LeafModel written, read;
+TEST_P(LeafModelOf, TakesSignsOfAnySize) {
+  LeafModel written(GetParam()), read(GetParam());
   BitEncoder encoder;
   const std::vector<LeafSigns> extremes{
       {},
@@ -57,6 +60,8 @@ TEST(LeafModel, TakesSignsOfAnySize) {
   decoder.StartSegment(bytes);
   for (const LeafSigns& signs : extremes) EXPECT_TRUE(read.Code(decoder, signs, false));
 }
+
+INSTANTIATE_TEST_SUITE_P(FullAndLight, LeafModelOf, testing::Bool());
 
 }  // namespace
 }  // namespace folprom

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 #include "engine/entropy/bit_coder.h"
 #include "engine/entropy/cell_model.h"
@@ -28,22 +27,16 @@ uint32_t Ratio(double a, double b) {
   return static_cast<uint32_t>(std::clamp(value, 2.0, kRatios - 1.0));
 }
 
-/// The logarithm, base 2, of a over b by a line from power to power of 2, in 1/4096.
-int64_t RoughOctaves(double a, double b) {
-  return (static_cast<int64_t>(std::bit_cast<uint64_t>(a)) -
-          static_cast<int64_t>(std::bit_cast<uint64_t>(b))) >>
-         40;
-}
 /// Half octaves above 1.
 uint32_t RoughSize(double length) {
   return static_cast<uint32_t>(
-      std::clamp<int64_t>(RoughOctaves(length, 1) >> 11, 0, int64_t{kCoarse} - 1));
+      std::clamp<int64_t>(detail::RoughLog2<1>(length, 1), 0, int64_t{kCoarse} - 1));
 }
 /// Twelfths of octaves around 32; 1: a length is missing.
 uint32_t RoughRatio(double a, double b) {
   if (!(a > 0) || !(b > 0)) return 1;
   return static_cast<uint32_t>(
-      std::clamp<int64_t>(32 + (12 * RoughOctaves(a, b) >> 12), 2, int64_t{kRatios} - 1));
+      std::clamp<int64_t>(32 + (12 * detail::RoughLog2<12>(a, b) >> 12), 2, int64_t{kRatios} - 1));
 }
 
 /// 0: no neighbours, 1: none or hardly one is a leaf, 2 .. 5: about a fourth less than so many are.

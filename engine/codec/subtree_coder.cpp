@@ -241,10 +241,9 @@ void SubtreeCoder::CodeNewVertex(Coder& coder, uint32_t set, const GridHint& hin
     attributes_->CodeNew(coder, {lod_.complex, lod_.positions, added, set}, values,
                          meters->attributes.empty() ? nullptr : &meters->attributes);
   }
-  float known = lod_.sets[set].spacing;
-  if (known < SetRecord::kUnmeasured) {
-    known = parameters_.has_light_models() ? kChildSpacing * known : SetRecord::kUnmeasured;
-  }
+  const float before = lod_.sets[set].spacing;
+  const bool is_told = parameters_.has_light_models() && before < SetRecord::kUnmeasured;
+  const float known = is_told ? kChildSpacing * before : SetRecord::kUnmeasured;
   for (uint32_t child : {set, added}) {
     lod_.sets[child].scale = Distance(position, kept);
     lod_.sets[child].spacing = known;

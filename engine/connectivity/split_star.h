@@ -16,7 +16,7 @@ enum Side : uint8_t { kUndecided = 0, kFirst = 1, kSecond = 2, kBoth = 3 };
 struct SplitStar {
   struct Neighbour {
     uint32_t vertex;
-    uint32_t half_edge;  ///< starts at the split vertex
+    uint32_t half_edge;           ///< starts at the split vertex
     uint32_t first_face = kNone;  ///< list of link entries, 2 * index into faces + end
     uint32_t face_count = 0;
     uint32_t new_edge = kNone;  ///< edge to the second child, when pivot
@@ -32,7 +32,7 @@ struct SplitStar {
     uint32_t corner;  ///< the split vertex's corner
     uint32_t end[2];  ///< next and previous vertex of the face: index into neighbours or kNone
     uint32_t next_link[2] = {kNone, kNone};  ///< next link entry at that end
-    uint32_t new_face = kNone;  ///< the second child's copy, when it goes to both
+    uint32_t new_face = kNone;               ///< the second child's copy, when it goes to both
     Side side = kUndecided;
   };
   uint32_t vertex = kNone;  ///< the split vertex; the first child keeps its index

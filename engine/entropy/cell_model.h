@@ -36,6 +36,14 @@ inline double FastLog(double x) {
   return exponent * 0.69314718 + 2 * y * (1 + s * (0.33333333 + s * (0.2 + s * 0.14285714)));
 }
 
+/// The binary logarithm of a / b, both above 0, in parts of octaves: a line from each power of 2 to
+/// the next stands for that of either.
+template <int kPartBits>
+inline int64_t RoughLog2(double a, double b) {
+  return static_cast<int64_t>(std::bit_cast<uint64_t>(a) - std::bit_cast<uint64_t>(b)) >>
+         (52 - kPartBits);
+}
+
 /// e^((at - mean) / scale), bounded: what LogisticOdds wants of a logistic density at an end.
 inline double LogisticPower(double at, double mean, double scale) {
   return FastExp2(1.44269504 * std::clamp((at - mean) / scale, -40.0, 40.0));

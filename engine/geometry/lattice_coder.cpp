@@ -23,6 +23,12 @@ std::array<double, 5> Features(const RingShape& ring, uint32_t axis) {
           feature(ring.area_centre), feature(ring.rim_centre)};
 }
 
+/// Of the neighbours along axes a and b.
+double Covariance(const RingShape& ring, uint32_t a, uint32_t b) {
+  constexpr uint32_t kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  return ring.covariance[kPlace[a][b]];
+}
+
 }  // namespace
 
 LatticeCoder::LatticeCoder(const Int3& lo, const Int3& hi, LatticeSettings settings)
@@ -120,8 +126,13 @@ int32_t LatticeCoder::CodeAlong(Coder& coder, const Coordinate& at, NewVertex* v
   const RingShape& ring = vertex->ring;
   const uint32_t axis = at.axis, step = at.step, first = (ring.dominant + 1) % 3;
   const double inverse = vertex->inverse();
-  const auto [variance, slope] =
-      SpreadAlong(ring, axis, first, step == 1 ? &vertex->variance_before : nullptr);
+  double variance = Covariance(ring, axis, axis), slope = 0;
+  if (step == 1) {
+    slope = Covariance(ring, first, axis) / vertex->variance_before;
+    variance = variance - slope * Covariance(ring, first, axis);
+  }
+  const double floor = 0.02 * ring.spacing * ring.spacing;
+  if (!(variance > floor)) variance = floor;
   if (step == 0) vertex->variance_before = variance;
   const double width = std::sqrt(variance), straight = vertex->ahead[axis];
   if (has_density_ && step == 0) density_.First(axis, &axis_density_);

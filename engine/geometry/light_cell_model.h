@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -32,22 +31,10 @@ struct CellLogistic {
   double mean, per_scale;
 };
 
-/// Octaves, in `per_octave` parts each, of odds from 2^least on; 0 <= result < count.
-template <int kPerOctaveBits>
-inline uint32_t OddsStep(double odds, int least, uint32_t count) {
-  const int shift = 52 - kPerOctaveBits;
-  const auto step = static_cast<int64_t>(std::bit_cast<uint64_t>(odds) >> shift) -
-                    ((int64_t{1023} + least) << kPerOctaveBits);
-  return static_cast<uint32_t>(std::clamp<int64_t>(step, 0, int64_t{count} - 1));
-}
-
-/// The same of odds a : b, by their logarithms, which a line from power to power of 2 stands for.
-template <int kPerOctaveBits>
-inline uint32_t OddsStepOf(double a, double b, int least, uint32_t count) {
-  const int shift = 52 - kPerOctaveBits;
-  const int64_t octaves = static_cast<int64_t>(std::bit_cast<uint64_t>(a)) -
-                          static_cast<int64_t>(std::bit_cast<uint64_t>(b));
-  const int64_t step = (octaves >> shift) - (int64_t{least} << kPerOctaveBits);
+/// Of odds a : b, in parts of octaves from 2^least on; 0 <= result < count.
+template <int kPartBits>
+inline uint32_t OddsStep(double a, double b, int least, uint32_t count) {
+  const int64_t step = detail::RoughLog2<kPartBits>(a, b) - (int64_t{least} << kPartBits);
   return static_cast<uint32_t>(std::clamp<int64_t>(step, 0, int64_t{count} - 1));
 }
 
@@ -68,7 +55,7 @@ class LightCellModel {
   using Row = std::array<PlainState, kSteps>;
   static Row FirstRow();
   static PlainState* StateAt(Row* row, double for_true, double for_false) {
-    return &(*row)[OddsStepOf<2>(for_true + 1e-12, for_false + 1e-12, kLeastOdds, kSteps)];
+    return &(*row)[OddsStep<2>(for_true + 1e-12, for_false + 1e-12, kLeastOdds, kSteps)];
   }
 
   std::vector<Row> upper_;                 ///< by side context

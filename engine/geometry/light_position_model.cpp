@@ -39,6 +39,8 @@ struct LightPositionModel::Vertex : LightSpokes::Vertex {
   double inverse;                ///< of the spacing
   std::array<int32_t, 3> cells{};
   Vector3 offset{0, 0, 0};  ///< of the coordinates that are coded
+  /// By axis, what its regression follows: the ring's mean and direction, in spacings.
+  std::array<std::array<double, 2>, 3> features{};
   double miss_before = 0, variance_before = 1;
   uint32_t known = 0;  ///< places of the coordinates that are coded
 
@@ -49,6 +51,12 @@ struct LightPositionModel::Vertex : LightSpokes::Vertex {
     offset[axis] = (static_cast<double>(cell) + 0.5) * unit(axis) - origin(axis);
   }
 };
+
+double LightPositionModel::InSpacings(double length, const Vertex& vertex) {
+  // A hub with many neighbours next to it may have others very far away.
+  constexpr double kMost = 64;
+  return std::clamp(length * vertex.inverse, -kMost, kMost);
+}
 
 LightPositionModel::LightPositionModel(const std::array<int32_t, 3>& lo,
                                        const std::array<int32_t, 3>& hi)
@@ -85,7 +93,7 @@ int32_t LightPositionModel::CodeCell(Coder& coder, uint32_t step, double mean, d
     return cells_[step].Code(coder, density, lo, hi, truth, side_context);
   }
   const double mass = density.Mass(on[next - 1] >> shift) + density.Mass(on[next] >> shift);
-  const uint32_t mass_step = OddsStep<1>((mass + 1e-9) / (1 - mass + 1e-9), -10, kMassSteps);
+  const uint32_t mass_step = OddsStep<1>((mass + 1e-9) / (1 - mass + 1e-9), 1, -10, kMassSteps);
   const int32_t old = At(vertex->old, axis) >> shift;
   const size_t old_plane = planes_->Below(axis, int64_t{old} << shift);
   const bool old_on = old_plane < on.size() && on[old_plane] >> shift == old;
@@ -120,9 +128,9 @@ int32_t LightPositionModel::CodeCell(Coder& coder, uint32_t step, double mean, d
 /// Along the surface.
 template <class Coder>
 void LightPositionModel::CodeAlong(Coder& coder, uint32_t step, int32_t truth, Vertex* vertex) {
-  constexpr double kMost = 64, kLeastVariance = 0.02;
+  constexpr double kLeastVariance = 0.02;
   const LightRing& ring = vertex->ring;
-  const uint32_t axis = vertex->ring.axes[step], first = vertex->ring.axes[0];
+  const uint32_t axis = ring.axes[step], first = ring.axes[0];
   const double slope = step == 0 ? 0 : ring.covariance / vertex->variance_before;
   const double variance = std::max(ring.variance[step] - slope * ring.covariance,
                                    kLeastVariance * ring.spacing * ring.spacing);
@@ -141,11 +149,7 @@ void LightPositionModel::CodeAlong(Coder& coder, uint32_t step, int32_t truth, V
   vertex->miss_before = offset - straight;
   if constexpr (kLearns<Coder>) {
     along_scale_.Learn(place, std::fabs(offset - mean) / width);
-    const auto feature = [&](const Vector3& from) {
-      return std::clamp(from[axis] * vertex->inverse, -kMost, kMost);
-    };
-    fit_[vertex->count].Learn({feature(ring.mean), feature(ring.direction)},
-                              std::clamp(offset * vertex->inverse, -kMost, kMost));
+    fit_[vertex->count].Learn(vertex->features[axis], InSpacings(offset, *vertex));
   }
 }
 
@@ -157,7 +161,7 @@ void LightPositionModel::CodeAcross(Coder& coder, int32_t truth, Vertex* vertex)
   const double unit = vertex->unit(axis);
   const double bent = ring.Across(vertex->offset[ring.axes[0]], vertex->offset[ring.axes[1]]);
   const double width = ring.miss + 0.1 * ring.range + 0.25 * unit;
-  const uint32_t bucket = OddsStep<1>(width / unit, -3, kWidths);
+  const uint32_t bucket = OddsStep<1>(width / unit, 1, -3, kWidths);
   const double scale = kScalePerMiss * across_scale_.Of(bucket) * width / unit;
   vertex->Place(axis,
                 CodeCell(coder, 2, (vertex->origin(axis) + bent) / unit, scale, 0, truth, vertex));
@@ -204,16 +208,14 @@ template <class Coder>
 std::array<int32_t, 3> LightPositionModel::Code(
     Coder& coder, const Int3& old, const LightRing& ring, const std::array<uint8_t, 3>& shifts,
     const std::array<int32_t, 3>& truth, uint64_t* tangential_meter, uint64_t* normal_meter) {
-  constexpr double kMost = 64;
-  const double inverse = 1 / ring.spacing;
-  Vertex vertex{
-      {old, ring, shifts, {}, {}, {}}, CountBucket(ring), EccentricityBucket(ring), inverse};
+  Vertex vertex{{old, ring, shifts, {}, {}, {}},
+                CountBucket(ring),
+                EccentricityBucket(ring),
+                1 / ring.spacing};
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const auto feature = [&](const Vector3& from) {
-      return std::clamp(from[axis] * inverse, -kMost, kMost);
-    };
-    vertex.expected[axis] =
-        fit_[vertex.count].Predict({feature(ring.mean), feature(ring.direction)}) * ring.spacing;
+    vertex.features[axis] = {InSpacings(ring.mean[axis], vertex),
+                             InSpacings(ring.direction[axis], vertex)};
+    vertex.expected[axis] = fit_[vertex.count].Predict(vertex.features[axis]) * ring.spacing;
     vertex.lo[axis] = lo_[axis] >> shifts[axis];
     vertex.hi[axis] = hi_[axis] >> shifts[axis];
   }

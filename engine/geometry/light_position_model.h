@@ -48,6 +48,8 @@ class LightPositionModel {
   template <class Coder>
   int32_t CodeCell(Coder& coder, uint32_t step, double mean, double scale, uint32_t side_context,
                    int32_t truth, Vertex* vertex);
+  /// Kept within bounds.
+  static double InSpacings(double length, const Vertex& vertex);
   /// Is a vertex that may be on a spoke cheaper to tell so.
   bool PaysOnSpoke(const Vertex& vertex, const std::array<int32_t, 3>& truth);
 

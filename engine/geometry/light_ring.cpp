@@ -81,7 +81,7 @@ LightRing MeasureLightRing(std::span<const RingSpoke> spokes, const Vector3& nor
   if (z_length[1] > 0) ring.spacing = z_length[1] * per_spoke;
   const double share = ring.spacing * per_spoke;
   ring.direction = {direction_xy[0] * share, direction_xy[1] * share, direction_z * share};
-  const Vector3 across = NormalOr(normal, spokes, ring.mean);
+  const Vector3 across = NormalOrAny(normal, spokes, ring.mean);
   uint32_t dominant = 0;
   for (uint32_t i = 1; i < 3; ++i) {
     if (std::fabs(across[i]) > std::fabs(across[dominant])) dominant = i;

@@ -17,7 +17,7 @@ struct LightRing {
   bool is_open = false;  ///< as in RingShape
   double spacing = 1;    ///< mean distance of the neighbours
   Vector3 mean{0, 0, 0};
-  Vector3 direction{0, 0, 0};             ///< mean of the unit vectors to the neighbours, times the spacing
+  Vector3 direction{0, 0, 0};  ///< mean of the unit vectors to the neighbours, times the spacing
   std::array<uint32_t, 3> axes{0, 1, 2};  ///< two along the surface, the one across
   std::array<double, 2> variance{};       ///< of the neighbours around their mean, along
   double covariance = 0;

@@ -1,4 +1,4 @@
-// Contexts that a ring gives, and how its neighbours lie along the axes of the lattice.
+// Contexts that a ring gives, a RingShape as well as a LightRing.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "engine/geometry/buckets.h"
-#include "engine/geometry/ring_shape.h"
+#include "engine/mesh/types.h"
 
 namespace folprom {
 
@@ -32,30 +32,6 @@ inline uint32_t SideBucket(double spacings) {
   constexpr std::array<double, kSideBuckets - 1> kBounds{-1.2, -0.8, -0.45, -0.15,
                                                          0.15, 0.45, 0.8,   1.2};
   return Bucket(spacings, kBounds);
-}
-
-/// Of the neighbours along an axis, squared lattice units: what is left of it where they follow
-/// another one with this slope.
-struct RingSpread {
-  double variance, slope = 0;
-};
-
-inline double Covariance(const RingShape& ring, uint32_t a, uint32_t b) {
-  constexpr uint32_t kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-  return ring.covariance[kPlace[a][b]];
-}
-
-/// first, first_variance: the other axis, and its own spread; null where none is known.
-inline RingSpread SpreadAlong(const RingShape& ring, uint32_t axis, uint32_t first,
-                              const double* first_variance) {
-  RingSpread spread{Covariance(ring, axis, axis)};
-  if (first_variance != nullptr) {
-    spread.slope = Covariance(ring, first, axis) / *first_variance;
-    spread.variance = spread.variance - spread.slope * Covariance(ring, first, axis);
-  }
-  const double floor = 0.02 * ring.spacing * ring.spacing;
-  if (!(spread.variance > floor)) spread.variance = floor;
-  return spread;
 }
 
 }  // namespace folprom

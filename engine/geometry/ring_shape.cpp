@@ -115,7 +115,7 @@ double RingShape::MeetQuadric(const Vector3& offset) const {
   return std::clamp(along, level - most, level + most);
 }
 
-Vector3 NormalOr(const Vector3& normal, std::span<const RingSpoke> ring, const Vector3& mean) {
+Vector3 NormalOrAny(const Vector3& normal, std::span<const RingSpoke> ring, const Vector3& mean) {
   if (Dot(normal, normal) > 0) return normal;
   // Without faces: across the two that span most of those which follow each other in the list.
   Vector3 best{0, 0, 0};
@@ -150,7 +150,7 @@ RingPlane MeasurePlane(std::span<const RingSpoke> ring, const Vector3& normal, d
   plane.mean = Divided(xy, z_length[0], count);
   plane.spacing = z_length[1] / count;
   if (!(plane.spacing > 0)) plane.spacing = 1;
-  plane.normal = NormalOr(normal, ring, plane.mean);
+  plane.normal = NormalOrAny(normal, ring, plane.mean);
   const double length = std::sqrt(Dot(plane.normal, plane.normal));
   for (double& value : plane.normal) value = value / length;
   for (uint32_t i = 0; i < 3; ++i) {

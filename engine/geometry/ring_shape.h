@@ -116,7 +116,7 @@ double HeightRange(std::span<const RingSpoke> ring, const Vector3& axis);
 
 /// The normal if it is not 0, otherwise one of what neighbours span that follow each other in the
 /// list; of any length above 0. mean: of a ring that is not empty.
-Vector3 NormalOr(const Vector3& normal, std::span<const RingSpoke> ring, const Vector3& mean);
+Vector3 NormalOrAny(const Vector3& normal, std::span<const RingSpoke> ring, const Vector3& mean);
 
 /// normal: sum over the faces; 0: there are none. scale: spacing to assume without neighbours.
 RingPlane MeasurePlane(std::span<const RingSpoke> ring, const Vector3& normal, double scale);

@@ -9,7 +9,8 @@
 namespace folprom {
 
 /// Each vertex is in it once at most. Costs are not negative; one below what was taken last counts
-/// as that; of those in one bucket the last comes first. Taking and pushing take constant time; all buckets are passed once.
+/// as that; of those in one bucket the last comes first. Taking and pushing take constant time; all
+/// buckets are passed once.
 class CostQueue {
  public:
   static constexpr uint32_t kNobody = ~uint32_t{0};

@@ -42,8 +42,7 @@ double CostOf(const std::vector<Split>& splits, std::shared_ptr<const Coordinate
   uint64_t before = 0, cost = 0;
   for (size_t i = 0; i < splits.size(); ++i) {
     uint64_t* meter = i + 200 < splits.size() ? &before : &cost;
-    const Cells coded =
-        writer.Code(encoder, kOld, MeasureLightRing(splits[i].spokes, {}, 1),
+    const Cells coded = writer.Code(encoder, kOld, MeasureLightRing(splits[i].spokes, {}, 1),
                                     {0, 0, 0}, splits[i].cells, meter, meter);
     EXPECT_EQ(coded, splits[i].cells) << i;
   }

@@ -1,6 +1,7 @@
 #include "engine/codec/border_seam_truth.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "folprom/result.h"
@@ -76,7 +77,9 @@ BorderSeamTruth::Input BorderSeamTruth::Collect(const std::vector<SeamMember>& m
                                      static_cast<uint32_t>(member[2])};
       std::sort(sorted.begin(), sorted.end());
       if (sorted[0] != sorted[1] && sorted[1] != sorted[2]) {
-        input.root_faces.push_back({sorted[0], sorted[1]});
+        const size_t lowest = member[0] == sorted[0] ? 0 : (member[1] == sorted[0] ? 1 : 2);
+        const bool forward = member[(lowest + 1) % 3] == sorted[1];
+        input.root_faces.push_back({sorted[0], sorted[1], forward});
       }
       continue;
     }
@@ -144,8 +147,18 @@ BorderSeamTruth::Replay BorderSeamTruth::PlanReplay(const BorderRecord& border, 
   return replay;
 }
 
-bool BorderSeamTruth::HasRootFace(uint32_t a, uint32_t b) const {
-  return std::binary_search(root_faces_.begin(), root_faces_.end(), std::array<uint32_t, 2>{a, b});
+std::span<const BorderSeamTruth::RootFace> BorderSeamTruth::RootFaces(uint32_t a,
+                                                                      uint32_t b) const {
+  const auto begin =
+      std::lower_bound(root_faces_.begin(), root_faces_.end(), RootFace{a, b, false});
+  return {begin, std::upper_bound(begin, root_faces_.end(), RootFace{a, b, true})};
+}
+
+bool BorderSeamTruth::RootFaceForward(uint32_t a, uint32_t b) const {
+  const auto faces = RootFaces(a, b);
+  const auto forward =
+      std::count_if(faces.begin(), faces.end(), [](const RootFace& face) { return face.forward; });
+  return 2 * static_cast<size_t>(forward) >= faces.size();
 }
 
 void BorderSeamTruth::BeginSplit(uint32_t participant, uint32_t event, uint32_t vertex) {

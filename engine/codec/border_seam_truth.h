@@ -1,7 +1,7 @@
 // The encoder's answers for one seam, from the cross faces and the border records.
 #pragma once
 
-#include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,19 +24,26 @@ class BorderSeamTruth final : public SeamTruth {
   /// members as the participants of the SeamCoder; cross_faces: those of the owner's chunk.
   BorderSeamTruth(const std::vector<SeamMember>& members, std::span<const CrossFace> cross_faces);
 
-  bool HasRootFace(uint32_t a, uint32_t b) const override;
+  bool HasRootFace(uint32_t a, uint32_t b) const override { return !RootFaces(a, b).empty(); }
+  bool RootFaceForward(uint32_t a, uint32_t b) const override;
   void Attach(const Complex& complex) override { oracle_.AttachInitial(complex); }
   void BeginSplit(uint32_t participant, uint32_t event, uint32_t vertex) override;
   SplitOracle* oracle() override { return &oracle_; }
   FaceCensus CountFaces(const Complex& complex) const override;
 
  private:
+  /// A face between two of the participants and the owner.
+  struct RootFace {
+    uint32_t lower, higher;
+    bool forward;  ///< it runs lower, higher, owner
+    auto operator<=>(const RootFace&) const = default;
+  };
   struct Input {
     uint32_t vertices = 0;
     size_t real_faces = 0;
     std::vector<Face> triples;
     std::vector<uint32_t> participant_of_vertex;
-    std::vector<std::array<uint32_t, 2>> root_faces;
+    std::vector<RootFace> root_faces;
   };
   static Input Collect(const std::vector<SeamMember>& members,
                        std::span<const CrossFace> cross_faces);
@@ -48,10 +55,11 @@ class BorderSeamTruth final : public SeamTruth {
     std::vector<uint32_t> begin, end;   ///< current range per border set
     std::vector<uint32_t> second_size;  ///< per event
   };
+  std::span<const RootFace> RootFaces(uint32_t a, uint32_t b) const;
   static Replay PlanReplay(const BorderRecord& border, uint32_t offset);
 
   size_t real_faces_;
-  std::vector<std::array<uint32_t, 2>> root_faces_;  ///< ascending
+  std::vector<RootFace> root_faces_;  ///< ascending
   std::vector<Replay> replays_;
   std::vector<const BorderRecord*> borders_;
   SplitOracle oracle_;

@@ -14,6 +14,7 @@ SeamCoder::SeamCoder(const CodecParameters& parameters, std::vector<Participant>
       vertex_of_border_(participants_.size()),
       split_coder_(parameters.connectivity()),
       root_face_({1}),
+      root_face_forward_({1}),
       exceptions_(mesh_faces) {}
 
 template <class Coder>
@@ -47,9 +48,14 @@ void SeamCoder::CodeRoots(Coder& coder, SeamTruth* truth) {
   for (uint32_t p = 0; p < owner; ++p) complex_.AddEdge(p, owner);
   for (uint32_t a = 0; a < owner; ++a) {
     for (uint32_t b = a + 1; b < owner; ++b) {
-      bool exists = false;
-      if constexpr (Coder::kEncoding) exists = truth->HasRootFace(a, b);
-      if (root_face_.Code(coder, {0}, 0, exists)) complex_.AddFace(a, b, owner);
+      bool exists = false, forward = false;
+      if constexpr (Coder::kEncoding) {
+        exists = truth->HasRootFace(a, b);
+        forward = exists && truth->RootFaceForward(a, b);
+      }
+      if (!root_face_.Code(coder, {0}, 0, exists)) continue;
+      forward = root_face_forward_.Code(coder, {0}, 0, forward);
+      complex_.AddFace(forward ? a : b, forward ? b : a, owner);
     }
   }
   if constexpr (Coder::kEncoding) truth->Attach(complex_);

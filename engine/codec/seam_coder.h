@@ -31,6 +31,8 @@ class SeamTruth {
   virtual ~SeamTruth() = default;
   /// Is there a face between subtrees number a < b (of the participants) and the owner.
   virtual bool HasRootFace(uint32_t a, uint32_t b) const = 0;
+  /// Do at least as many of these run a, b, owner as the other way round.
+  virtual bool RootFaceForward(uint32_t a, uint32_t b) const = 0;
   virtual void Attach(const Complex& complex) = 0;
   /// The next split, event `event` of a participant, divides LOD vertex `vertex`.
   virtual void BeginSplit(uint32_t participant, uint32_t event, uint32_t vertex) = 0;
@@ -71,7 +73,7 @@ class SeamCoder {
   std::vector<BorderRef> name_;                          ///< per vertex of the complex
   std::vector<std::vector<uint32_t>> vertex_of_border_;  ///< per participant
   SplitCoder split_coder_;
-  MixedModel<1> root_face_;
+  MixedModel<1> root_face_, root_face_forward_;
   FaceExceptions exceptions_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/connectivity/block_lists.h"
@@ -15,10 +16,16 @@ namespace folprom {
 
 inline constexpr uint32_t kNone = 0xffffffff;
 
+/// Next and previous corner of the same face.
+inline uint32_t NextCorner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+inline uint32_t PreviousCorner(uint32_t corner) {
+  return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
 /// Vertices, edges and faces that only ever grow in number. An edge is two half-edges, 2e and 2e+1;
-/// a face has three corners, 3f .. 3f+2. Half-edges and corners of a vertex are contiguous, and each
-/// knows its place there, so that it moves from one vertex to another in constant time, whatever the
-/// degree of either end. The same calls give the same order.
+/// a face has three corners, 3f .. 3f+2. Half-edges and corners of a vertex are contiguous, and
+/// each knows its place there, so that it moves from one vertex to another in constant time,
+/// whatever the degree of either end. The same calls give the same order.
 class Complex {
  public:
   /// A half-edge as its vertex sees it.
@@ -63,6 +70,14 @@ class Complex {
     corners_[corners_of_.Of(from).back()].place = moved.place;
     corners_of_.Remove(from, moved.place);
     moved = {to, corners_of_.Append(to, corner)};
+  }
+  /// The face of the corner runs the other way round.
+  void TurnFace(uint32_t corner) {
+    const uint32_t next = NextCorner(corner), previous = PreviousCorner(corner);
+    std::swap(corners_[next], corners_[previous]);
+    for (const uint32_t moved : {next, previous}) {
+      corners_of_.At(corners_[moved].vertex, corners_[moved].place) = moved;
+    }
   }
 
   uint32_t vertex_count() const { return spokes_.size(); }
@@ -126,12 +141,6 @@ inline void CheckSize(const Complex& complex, uint64_t mesh_faces) {
   if (complex.face_count() > mesh_faces || complex.edge_count() > 3 * mesh_faces) {
     throw Failure(ErrorKind::kCorrupt, "more faces or edges coded than the table announces");
   }
-}
-
-/// Next and previous corner of the same face.
-inline uint32_t NextCorner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-inline uint32_t PreviousCorner(uint32_t corner) {
-  return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
 }  // namespace folprom

@@ -5,7 +5,6 @@
 
 #include "engine/entropy/bit_coder.h"
 #include "engine/entropy/integer_model.h"
-#include "engine/entropy/mixed_model.h"
 
 namespace folprom {
 namespace {
@@ -72,46 +71,33 @@ void FaceExceptions::Repeat(const Complex& complex, const Face& face, uint32_t c
 
 template <class Coder>
 void FaceExceptions::Code(Coder& coder, const Complex& complex, const FaceCensus* census) {
-  bool any_reversed = false, any_copies = false, any_degenerate = false;
+  bool any_copies = false, any_degenerate = false;
   if (census != nullptr) {
     for (size_t f = 0; f < census->forward.size(); ++f) {
-      any_reversed |= census->forward[f] == 0;
+      if (census->forward[f] == 0) {
+        throw Failure(ErrorKind::kInternal, "a face of the complex runs against its originals");
+      }
       any_copies |= census->forward[f] + census->backward[f] > 1;
     }
     for (const auto& counts : census->on_edge) any_degenerate |= counts[0] + counts[1] > 0;
     for (uint32_t count : census->on_vertex) any_degenerate |= count > 0;
   }
-  any_reversed = coder.Code(4096, any_reversed);
   any_copies = coder.Code(4096, any_copies);
   any_degenerate = coder.Code(4096, any_degenerate);
-
-  if (any_reversed) {
-    MixedModel<2> reversed({256, 8});
-    uint32_t history = 0;
-    reversed_.resize(complex.face_count());
-    for (uint32_t f = 0; f < complex.face_count(); ++f) {
-      bool bit = reversed.Code(coder, {history & 255, history & 7}, 0,
-                               census != nullptr && census->forward[f] == 0);
-      reversed_[f] = bit;
-      history = history << 1 | (bit ? 1 : 0);
-    }
-  }
   if (any_copies) {
     IntegerModel<1> same({4}), opposite({4});
     uint32_t before_same = 0, before_opposite = 0;
     for (uint32_t f = 0; f < complex.face_count(); ++f) {
-      bool turned = !reversed_.empty() && reversed_[f];
       uint32_t along = 0, against = 0;
       if (census != nullptr) {
-        along = (turned ? census->backward[f] : census->forward[f]) - 1;
-        against = turned ? 0 : census->backward[f];
+        along = census->forward[f] - 1;
+        against = census->backward[f];
       }
       along = same.CodeUnsigned(coder, {std::min(before_same, 3u)}, along);
-      if (!turned) against = opposite.CodeUnsigned(coder, {std::min(before_opposite, 3u)}, against);
+      against = opposite.CodeUnsigned(coder, {std::min(before_opposite, 3u)}, against);
       Face face = complex.face(f);
-      Face back{face[0], face[2], face[1]};
-      Repeat(complex, turned ? back : face, along);
-      Repeat(complex, turned ? face : back, against);
+      Repeat(complex, face, along);
+      Repeat(complex, {face[0], face[2], face[1]}, against);
       before_same = along;
       before_opposite = against;
     }
@@ -146,9 +132,7 @@ void FaceExceptions::AppendFaces(const Complex& complex, std::vector<Face>* face
   }
   faces->reserve(faces->size() + FaceCount(complex));
   for (uint32_t f = 0; f < complex.face_count(); ++f) {
-    Face face = complex.face(f);
-    if (!reversed_.empty() && reversed_[f]) std::swap(face[1], face[2]);
-    faces->push_back(face);
+    faces->push_back(complex.face(f));
   }
   for (const Repeated& r : extra_) faces->insert(faces->end(), r.count, r.face);
 }

@@ -1,4 +1,5 @@
-// What the complex alone does not say of the faces: orientation, copies, degenerate faces.
+// What the complex alone does not say of the faces: copies, of either orientation, and degenerate
+// faces.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@ namespace folprom {
 
 /// The true number of faces per element of a complex, counted by the encoder.
 struct FaceCensus {
-  std::vector<uint32_t> forward;   ///< per face: originals of its orientation
+  std::vector<uint32_t> forward;   ///< per face: originals of its orientation, at least 1
   std::vector<uint32_t> backward;  ///< per face: originals of the opposite orientation
   std::vector<std::array<uint32_t, 2>> on_edge;  ///< per edge (a, b): faces (a, a, b), (a, b, b)
   std::vector<uint32_t> on_vertex;               ///< per vertex: faces (a, a, a)
@@ -36,7 +37,7 @@ class FaceExceptions {
   template <class Coder>
   void Code(Coder& coder, const Complex& complex, const FaceCensus* census);
 
-  /// Faces in their final number and orientation. Before Code: those of the complex.
+  /// Faces in their final number. Before Code: those of the complex.
   uint64_t FaceCount(const Complex& complex) const { return complex.face_count() + extra_count_; }
   /// Throws Failure kLimit when they are more than kMostFaces.
   void AppendFaces(const Complex& complex, std::vector<Face>* faces) const;
@@ -44,7 +45,6 @@ class FaceExceptions {
  private:
   void Repeat(const Complex& complex, const Face& face, uint32_t count);
   uint64_t most_faces_;
-  std::vector<bool> reversed_;  ///< per face; empty when none is
   /// Further copies and degenerate faces, and how many of each: a few bits may announce millions.
   struct Repeated {
     Face face;

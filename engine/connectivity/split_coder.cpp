@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/entropy/bit_coder.h"
 #include "engine/entropy/fixed_math.h"
@@ -66,6 +67,7 @@ SplitCoder::SplitCoder(ConnectivitySettings settings)
       pivot_({8 * 4 * 2 * kDegreeBuckets, kRegularityBuckets * 4 * 9, 4 * kLeanBuckets * 8 * 4}, 8),
       side_({kLeanBuckets * 4 * 2, 3 * 3 * kLeanBuckets * 2, kDegreeBuckets * kLeanBuckets}, 4),
       face_both_({16, 4}, 1),
+      face_turn_({3}, 1),
       face_side_({kLeanBuckets, 4}, 1),
       new_face_({9 * 3, 6 * 3}, 1),
       orientation_({15}, 1) {}
@@ -291,14 +293,16 @@ void SplitCoder::CountFace(const SplitStar::StarFace& face) {
     auto& neighbour = star_.neighbours[face.end[i]];
     // End 0 follows the split vertex: the face runs first -> neighbour, the new face
     // (first, second, neighbour) back; so they agree.
-    int vote = i == 0 ? 1 : -1;
+    const auto cast = [&](int vote) {
+      neighbour.votes = static_cast<int8_t>(std::clamp(neighbour.votes + vote, -2, 2));
+    };
     if (face.side & kFirst) {
       neighbour.faces_first = static_cast<uint16_t>(AtMost(neighbour.faces_first + 1u, 2));
-      neighbour.votes = static_cast<int8_t>(std::clamp(neighbour.votes + vote, -2, 2));
+      cast((i == 0) != face.turns.first ? 1 : -1);
     }
     if (face.side & kSecond) {
       neighbour.faces_second = static_cast<uint16_t>(AtMost(neighbour.faces_second + 1u, 2));
-      neighbour.votes = static_cast<int8_t>(std::clamp(neighbour.votes - vote, -2, 2));
+      cast((i == 0) != face.turns.second ? -1 : 1);
     }
   }
 }
@@ -329,6 +333,10 @@ void SplitCoder::CodeFaces(Coder& coder, const Complex& complex, const std::vect
       if (face_both_.Code(coder, {pivots * 4 + (star_.connected ? 2u : 0u) + foreign, bucket / 3},
                           0, truth == kBoth)) {
         face.side = kBoth;
+        if constexpr (Coder::kEncoding) face.turns = oracle->TurnsOf(complex, face.corner / 3);
+        face.turns.first = face_turn_.Code(coder, {0}, 0, face.turns.first);
+        const uint32_t context = face.turns.first ? 2 : 1;
+        face.turns.second = face_turn_.Code(coder, {context}, 0, face.turns.second);
       } else {
         Side nearer = lean < 0 ? kFirst : kSecond;
         bool farther = face_side_.Code(coder, {bucket, pivots}, 0, truth != nearer);
@@ -390,9 +398,10 @@ void SplitCoder::ApplySides(Complex& complex) {
     if (face.side == kSecond) {
       complex.MoveCorner(face.corner, star_.vertex, star_.second);
     } else if (face.side == kBoth) {
-      Face copy = complex.face(face.corner / 3);
-      copy[face.corner % 3] = star_.second;
-      face.new_face = complex.AddFace(copy[0], copy[1], copy[2]);
+      auto [next, previous] = complex.Opposite(face.corner);
+      if (face.turns.second) std::swap(next, previous);
+      face.new_face = complex.AddFace(star_.second, next, previous);
+      if (face.turns.first) complex.TurnFace(face.corner);
     }
   }
 }

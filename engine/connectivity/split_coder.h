@@ -135,6 +135,7 @@ class SplitCoder {
   MixedModel<3> pivot_;
   MixedModel<3> side_;
   MixedModel<2> face_both_;
+  MixedModel<1> face_turn_;
   MixedModel<2> face_side_;
   MixedModel<2> new_face_;
   MixedModel<1> orientation_;

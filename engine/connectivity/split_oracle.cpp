@@ -1,6 +1,7 @@
 #include "engine/connectivity/split_oracle.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace folprom {
@@ -30,10 +31,9 @@ SplitOracle::SplitOracle(uint32_t vertex_count, std::vector<Face> faces,
 
 void SplitOracle::AttachInitial(const Complex& complex) {
   edge_count_.assign(complex.edge_count(), 0);
-  face_count_.assign(complex.face_count(), 0);
+  records_.assign(complex.face_count(), {});
   face_of_label_.resize(complex.face_count());
-  label_of_face_.resize(complex.face_count());
-  for (uint32_t f = 0; f < complex.face_count(); ++f) face_of_label_[f] = label_of_face_[f] = f;
+  for (uint32_t f = 0; f < complex.face_count(); ++f) face_of_label_[f] = records_[f].label = f;
   for (uint32_t t = 0; t < faces_.size(); ++t) {
     uint32_t set[3];
     for (size_t i = 0; i < 3; ++i) set[i] = vertex_of_label_[vertex_label_[faces_[t][i]]];
@@ -49,7 +49,8 @@ void SplitOracle::AttachInitial(const Complex& complex) {
       const auto [next, previous] = complex.Opposite(c);
       if ((next == set[1] && previous == set[2]) || (next == set[2] && previous == set[1])) {
         face_label_[t] = c / 3;
-        ++face_count_[c / 3];
+        ++records_[c / 3].count;
+        records_[c / 3].along += RunsAlong(complex, t, c / 3) ? 1 : -1;
       }
     }
   }
@@ -71,7 +72,8 @@ void SplitOracle::Scan(uint32_t vertex, std::span<const std::span<const uint32_t
   moved_label_ = static_cast<uint32_t>(vertex_of_label_.size());
   vertex_of_label_.push_back(vertex);
   neighbour_.resize(std::max(neighbour_.size(), vertex_of_label_.size()));
-  face_.resize(std::max(face_.size(), face_count_.size()));
+  face_.resize(std::max(face_.size(), records_.size()));
+  has_counted_along_ = false;
   old_label_ = kNone;
   for (auto range : moved) {
     for (uint32_t v : range) {
@@ -109,7 +111,7 @@ void SplitOracle::ScanCorner(const Corner& corner) {
     return;
   }
   PerFace& entry = face_[face_of_label_[face_label_[t]]];
-  if (entry.stamp != stamp_) entry = PerFace{stamp_, 0, kNone};
+  if (entry.stamp != stamp_) entry = PerFace{stamp_, 0, 0, kNone};
   ++entry.count;
   touched_faces_.push_back(t);
 }
@@ -127,7 +129,30 @@ Side SplitOracle::NeighbourSide(uint32_t half_edge, uint32_t neighbour) const {
 
 Side SplitOracle::FaceSide(uint32_t face) const {
   const PerFace& entry = face_[face];
-  return SideOf(entry.stamp == stamp_ ? entry.count : 0, face_count_[face]);
+  return SideOf(entry.stamp == stamp_ ? entry.count : 0, records_[face].count);
+}
+
+bool SplitOracle::RunsAlong(const Complex& complex, uint32_t original, uint32_t face) const {
+  const Face set = complex.face(face);
+  const Face& vertices = faces_[original];
+  const size_t place =
+      static_cast<size_t>(std::find(set.begin(), set.end(), VertexOf(vertices[0])) - set.begin());
+  return set[(place + 1) % 3] == VertexOf(vertices[1]);
+}
+
+void SplitOracle::CountAlong(const Complex& complex) {
+  has_counted_along_ = true;
+  for (const uint32_t t : touched_faces_) {
+    const uint32_t face = face_of_label_[face_label_[t]];
+    face_[face].along += RunsAlong(complex, t, face) ? 1 : -1;
+  }
+}
+
+FaceTurns SplitOracle::TurnsOf(const Complex& complex, uint32_t face) {
+  // Few splits part the originals of a face, so the others do not count.
+  if (!has_counted_along_) CountAlong(complex);
+  const bool moved = face_[face].along < 0, stayed = records_[face].along < face_[face].along;
+  return moved_is_second_ ? FaceTurns{stayed, moved} : FaceTurns{moved, stayed};
 }
 
 bool SplitOracle::HasNewFace(uint32_t neighbour) const {
@@ -164,13 +189,9 @@ void SplitOracle::CommitEdges(const SplitStar& star) {
   if (star.child_edge != kNone) set(star.child_edge, child_edge_count_);
 }
 
-void SplitOracle::AddFaceRecord(uint32_t face, uint32_t count, uint32_t label) {
-  if (face >= face_count_.size()) {
-    face_count_.resize(face + size_t{1}, 0);
-    label_of_face_.resize(face + size_t{1}, kNone);
-  }
-  face_count_[face] = count;
-  label_of_face_[face] = label;
+void SplitOracle::AddFaceRecord(uint32_t face, uint32_t count, int32_t along, uint32_t label) {
+  if (face >= records_.size()) records_.resize(face + size_t{1});
+  records_[face] = {count, std::abs(along), label};
   if (label >= face_of_label_.size()) face_of_label_.resize(label + size_t{1}, kNone);
   face_of_label_[label] = face;
 }
@@ -187,16 +208,13 @@ void SplitOracle::CommitFaces(const SplitStar& star) {
   }
   for (const auto& face : star.faces) {
     if (face.side != kBoth) continue;
-    uint32_t first = face.corner / 3, old_label = label_of_face_[first];
-    uint32_t moved = face_[first].count, stayed = face_count_[first] - moved;
-    uint32_t new_label = face_[first].new_label;
-    if (moved_is_second_) {
-      AddFaceRecord(first, stayed, old_label);
-      AddFaceRecord(face.new_face, moved, new_label);
-    } else {
-      AddFaceRecord(first, moved, new_label);
-      AddFaceRecord(face.new_face, stayed, old_label);
-    }
+    const uint32_t first = face.corner / 3;
+    const PerFace moved = face_[first];
+    const FaceRecord before = records_[first];
+    const uint32_t stays = moved_is_second_ ? first : face.new_face;
+    const uint32_t goes = moved_is_second_ ? face.new_face : first;
+    AddFaceRecord(stays, before.count - moved.count, before.along - moved.along, before.label);
+    AddFaceRecord(goes, moved.count, moved.along, moved.new_label);
   }
 }
 
@@ -205,7 +223,7 @@ void SplitOracle::CommitNewFaces(const SplitStar& star) {
     if (neighbour.new_face == kNone) continue;
     PerNeighbour& entry = neighbour_[neighbour.vertex];
     entry.new_face_label = static_cast<uint32_t>(face_of_label_.size());
-    AddFaceRecord(neighbour.new_face, entry.new_faces, entry.new_face_label);
+    AddFaceRecord(neighbour.new_face, entry.new_faces, entry.forward, entry.new_face_label);
   }
   for (const OpenedFace& opened : opened_faces_) {
     face_label_[opened.face] = neighbour_[opened.third].new_face_label;

@@ -37,6 +37,9 @@ class SplitOracle {
   bool connected() const { return child_edge_count_ > 0; }
   Side NeighbourSide(uint32_t half_edge, uint32_t neighbour) const;
   Side FaceSide(uint32_t face) const;
+  /// Of a face whose side is both, before the split is applied: do more of a child's originals run
+  /// against the face than along it.
+  FaceTurns TurnsOf(const Complex& complex, uint32_t face);
   bool HasNewFace(uint32_t neighbour) const;
   /// Is the new face (first child, second child, neighbour), and not its reverse, the more common.
   bool NewFaceForward(uint32_t neighbour) const;
@@ -70,7 +73,14 @@ class SplitOracle {
   struct PerFace {
     uint32_t stamp = 0;
     uint32_t count = 0;  ///< originals with a moved corner
+    int32_t along = 0;   ///< of these, along the face minus against; when it was asked for
     uint32_t new_label = kNone;
+  };
+  /// What is known of a face of the complex.
+  struct FaceRecord {
+    uint32_t count = 0;  ///< originals
+    int32_t along = 0;   ///< of these, along the face minus against; never below 0
+    uint32_t label = kNone;
   };
   struct OpenedFace {
     uint32_t face;   ///< original that becomes part of a new face
@@ -82,7 +92,10 @@ class SplitOracle {
   void CommitEdges(const SplitStar& star);
   void CommitFaces(const SplitStar& star);
   void CommitNewFaces(const SplitStar& star);
-  void AddFaceRecord(uint32_t face, uint32_t count, uint32_t label);
+  /// along: of the originals, along the face or against it.
+  void AddFaceRecord(uint32_t face, uint32_t count, int32_t along, uint32_t label);
+  bool RunsAlong(const Complex& complex, uint32_t original, uint32_t face) const;
+  void CountAlong(const Complex& complex);
 
   std::vector<Face> faces_;
   std::vector<uint32_t> corner_begin_;  ///< per vertex, into corners_
@@ -90,9 +103,9 @@ class SplitOracle {
   // Originals carry labels, labels name the LOD's vertices and faces: when a set is halved only the
   // smaller half gets a new label.
   std::vector<uint32_t> vertex_label_, vertex_of_label_;
-  std::vector<uint32_t> face_label_, face_of_label_, label_of_face_;
+  std::vector<uint32_t> face_label_, face_of_label_;
   std::vector<uint32_t> edge_count_;  ///< pairs of corners per edge of the complex
-  std::vector<uint32_t> face_count_;  ///< originals per face of the complex
+  std::vector<FaceRecord> records_;   ///< per face of the complex
 
   std::vector<PerNeighbour> neighbour_;
   std::vector<PerFace> face_;
@@ -103,6 +116,7 @@ class SplitOracle {
   uint32_t old_label_ = kNone;
   uint32_t child_edge_count_ = 0;
   bool moved_is_second_ = false;
+  bool has_counted_along_ = false;  ///< of the faces that this split touches
 };
 
 /// Counts the first `real_faces` originals of the oracle on the elements of its finished complex.

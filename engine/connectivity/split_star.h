@@ -11,6 +11,11 @@ namespace folprom {
 /// To which child a neighbour or a face belongs after the split. A neighbour of both is a pivot.
 enum Side : uint8_t { kUndecided = 0, kFirst = 1, kSecond = 2, kBoth = 3 };
 
+/// Of a face that goes to both children: does that of either run the other way round.
+struct FaceTurns {
+  bool first = false, second = false;
+};
+
 /// The star of a split vertex. Filled by SplitCoder::Gather and
 /// LinkFaces, decided by SplitCoder::Code.
 struct SplitStar {
@@ -34,6 +39,7 @@ struct SplitStar {
     uint32_t next_link[2] = {kNone, kNone};  ///< next link entry at that end
     uint32_t new_face = kNone;               ///< the second child's copy, when it goes to both
     Side side = kUndecided;
+    FaceTurns turns = {};  ///< when it goes to both
   };
   uint32_t vertex = kNone;  ///< the split vertex; the first child keeps its index
   uint32_t second = kNone;  ///< index of the second child

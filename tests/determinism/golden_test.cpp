@@ -21,20 +21,20 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0x17d8f996cf9be2a2;
-constexpr uint64_t kPaperHash = 0x20879b5ac11b1f61;
-constexpr uint64_t kSubtreesHash = 0x3ef860a77f7a35e;
-constexpr uint64_t kRangeHash = 0x533c2622101fbb94;
-constexpr uint64_t kLeastEffortHash = 0x8dcb8b8719356066;
-constexpr uint64_t kMostEffortHash = 0x340dd78f74750622;
-constexpr uint64_t kVoxelHash = 0xbe973bcf207b71cb;
-constexpr uint64_t kExactVoxelHash = 0x2ec7959091a7f4b9;
-constexpr uint64_t kSubdividedHash = 0xd72bbf4cc41f48af;
-constexpr uint64_t kExactHash = 0x4c340fa5bf46e543;
-constexpr uint64_t kExactRestsHash = 0x8f87c9fb17342cac;
-constexpr uint64_t kOtherHash = 0x1a2255fa23a72486;
-constexpr uint64_t kSoupHash = 0x1599636e529ac976;
-constexpr uint64_t kAttributesHash = 0x249abf5ec3872a6d;
+constexpr uint64_t kDefaultHash = 0x3eed4fa439246c57;
+constexpr uint64_t kPaperHash = 0x76f94c3ecad33993;
+constexpr uint64_t kSubtreesHash = 0x3dfa291131c32090;
+constexpr uint64_t kRangeHash = 0xd7927fd705c2cb72;
+constexpr uint64_t kLeastEffortHash = 0x2a7d9cedb2a36293;
+constexpr uint64_t kMostEffortHash = 0x4ceed24b3e5fe389;
+constexpr uint64_t kVoxelHash = 0xa367692e0fa3c68a;
+constexpr uint64_t kExactVoxelHash = 0xd721f8422d7a47a9;
+constexpr uint64_t kSubdividedHash = 0x966dbe89b703fb7d;
+constexpr uint64_t kExactHash = 0x81b6c971539ad166;
+constexpr uint64_t kExactRestsHash = 0x271648e27da84273;
+constexpr uint64_t kOtherHash = 0x2bd26b2b44295eef;
+constexpr uint64_t kSoupHash = 0x541011601ecfab76;
+constexpr uint64_t kAttributesHash = 0x31b61682b561e2f4;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

@@ -56,6 +56,9 @@ class WatchedSeamTruth final : public SeamTruth {
       : truth_(members, cross_faces), members_(members), border_sets_(members.size(), 1) {}
 
   bool HasRootFace(uint32_t a, uint32_t b) const override { return truth_.HasRootFace(a, b); }
+  bool RootFaceForward(uint32_t a, uint32_t b) const override {
+    return truth_.RootFaceForward(a, b);
+  }
   void Attach(const Complex& complex) override {
     complex_ = &complex;
     for (const SeamMember& member : members_) names_.push_back({member.subtree, 0});

@@ -227,6 +227,19 @@ TEST(SplitOracle, NamesTheFaceOfEveryOriginal) {
   }
 }
 
+TEST(SplitCoder, TurnsEachFaceAsMostOfItsOriginalsRun) {
+  uint32_t against = 0;
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    const Recording r = Record(RandomMesh(seed), kAllSettings[seed % kAllSettings.size()], seed);
+    const FaceCensus census = TakeCensus(r.complex, r.final_faces, r.face_of);
+    for (size_t f = 0; f < census.forward.size(); ++f) {
+      ASSERT_GE(census.forward[f], std::max(census.backward[f], 1u)) << seed;
+      against += census.backward[f];
+    }
+  }
+  EXPECT_GT(against, 0u) << "no mesh has faces of both orientations";
+}
+
 TEST(SplitCoder, RandomBytesGiveAComplexOrAnError) {
   std::mt19937_64 random(7);
   for (int round = 0; round < 500; ++round) {
@@ -314,7 +327,7 @@ TEST(FaceExceptions, RandomBytesGiveFacesOfTheComplexOrAnError) {
   for (int round = 0; round < 1000; ++round) {
     std::vector<uint8_t> bytes(random() % 60);
     for (auto& byte : bytes) byte = static_cast<uint8_t>(random());
-    if (round % 2 == 0) bytes.insert(bytes.begin(), 0);  // towards all three kinds of exceptions
+    if (round % 2 == 0) bytes.insert(bytes.begin(), 0);  // towards both kinds of exceptions
     BitDecoder decoder;
     decoder.StartSegment(bytes);
     FaceExceptions exceptions(1000);

@@ -18,6 +18,9 @@ constexpr double kRounding = 1, kLeastMeasured = 400;
 constexpr double kSharpNormals = 0.97;
 /// Of a subtree from its first vertex in scaled units: so floats hold areas times squared lengths.
 constexpr float kMostReach = 8192;
+/// A vertex at the border to another subtree that would go inside costs so many times more: along
+/// it neighbours keep half rings that are even, and what joins them to those beyond is told sooner.
+constexpr float kBorderFactor = 16;
 /// Square of the cosine by which a face may turn.
 constexpr float kMostTurn = 0.04F;
 
@@ -95,11 +98,14 @@ Vector3 ContractionMesh::AreaNormal(uint32_t a, uint32_t b, uint32_t c) const {
 
 void ContractionMesh::LinkStars() {
   for (uint32_t v = 0; v < own_; ++v) stars_.AddList();
+  rims_.assign(own_, 0);
   for (uint32_t f = 0; f < faces_.size(); ++f) {
+    const bool is_foreign = !IsOwn(faces_[f]);
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t v = faces_[f][i];
       // A corner may be in a face twice.
       if (v < own_ && v != faces_[f][(i + 1) % 3]) stars_.Append(v, f);
+      if (v < own_ && is_foreign) rims_[v] = kBorder;
     }
   }
 }
@@ -153,7 +159,9 @@ void ContractionMesh::AddBoundaryPlanes() {
       }
     }
     for (const Edge& edge : edges) {
-      if (edge.count == 1) AddBoundaryPlane(v, edge.to, faces_[edge.face]);
+      if (edge.count != 1) continue;
+      AddBoundaryPlane(v, edge.to, faces_[edge.face]);
+      for (const uint32_t end : {v, edge.to}) rims_[end] |= kOpenEdge;
     }
   }
 }
@@ -244,7 +252,8 @@ float ContractionMesh::CostOf(uint32_t v, uint32_t target, float length_weight) 
   const Offset offset = From(v, target);
   const Quadric& own = vertices_[v].quadric;
   const float error = own.At(offset) + vertices_[target].quadric.constant;
-  return error + length_weight * own.weight * Dot(offset, offset);
+  const float cost = error + length_weight * own.weight * Dot(offset, offset);
+  return Leaves(v, target, kBorder) ? kBorderFactor * cost : cost;
 }
 
 bool ContractionMesh::IsAllowed(uint32_t v, uint32_t target) {
@@ -264,8 +273,36 @@ bool ContractionMesh::IsAllowed(uint32_t v, uint32_t target) {
     const float limit = kMostTurn * Dot(before, before) * Dot(after, after);
     if (agreement < 0 || agreement * agreement < limit) return false;
   }
+  if (rims_[v] != 0 && rims_[target] != 0 && Pinches(v, target)) return false;
   // The link condition: common neighbours lie on faces of the edge.
   return CommonNeighbours(target) <= shared;
+}
+
+bool ContractionMesh::Pinches(uint32_t v, uint32_t target) {
+  uint32_t own = 0, shared = 0;
+  for (uint32_t f : stars_.Of(v)) {
+    const auto [a, b, c] = faces_[f];
+    if (a == b || b == c || a == c || !IsOwn(faces_[f])) continue;
+    ++own;
+    shared += a == target || b == target || c == target ? 1 : 0;
+  }
+  return shared > 1 && own < ring_size_ && IsOpen(target);
+}
+
+bool ContractionMesh::IsOpen(uint32_t v) {
+  uint32_t faces = 0, neighbours = 0;
+  vertices_[v].stamp = ++stamp_;
+  for (uint32_t f : stars_.Of(v)) {
+    for (uint32_t& corner : faces_[f]) corner = Find(corner);
+    const auto [a, b, c] = faces_[f];
+    if (a == b || b == c || a == c || !IsOwn(faces_[f])) continue;
+    ++faces;
+    for (uint32_t w : {a, b, c}) {
+      neighbours += vertices_[w].stamp != stamp_ ? 1 : 0;
+      vertices_[w].stamp = stamp_;
+    }
+  }
+  return faces < neighbours;
 }
 
 /// How many vertices of the ring are neighbours of target; looks through whichever stars are
@@ -306,6 +343,7 @@ double ContractionMesh::Contract(uint32_t v, uint32_t target) {
   const double error =
       own.weight > 0 ? std::sqrt(static_cast<double>(own.At(From(v, target)) / own.weight)) : 0;
   gone.merged_into = target;
+  rims_[target] |= rims_[v];
   kept.quadric.Add(own, From(target, v));
   if (stars_.SizeOf(target) < stars_.SizeOf(v)) stars_.Swap(target, v);
   stars_.MoveAll(v, target);

@@ -42,7 +42,8 @@ class ContractionMesh {
 
   /// The distinct neighbours of v, until the next call.
   std::span<const uint32_t> CollectRing(uint32_t v);
-  /// Quadric error, and length_weight x area x length^2.
+  /// Quadric error, and length_weight x area x length^2; more where a vertex would leave the border
+  /// to another subtree.
   float CostOf(uint32_t v, uint32_t target, float length_weight) const;
   /// Would no face turn over, and the surface not be pinched. Of the v whose ring was collected.
   bool IsAllowed(uint32_t v, uint32_t target);
@@ -59,6 +60,8 @@ class ContractionMesh {
     uint32_t stamp = 0;
     Quadric quadric;
   };
+  /// Where a subtree's surface ends: at faces into others, at edges of one face.
+  enum Rim : uint8_t { kBorder = 1, kOpenEdge = 2 };
   enum class Bend { kFlat, kSmooth, kSharp };
   using Offset = Quadric::Offset;
 
@@ -74,14 +77,23 @@ class ContractionMesh {
   Bend BendAt(uint32_t v) const;
   void AddToRing(uint32_t w);
   std::span<const uint32_t> Ring() const { return std::span(ring_).first(ring_size_); }
+  bool IsOwn(const Face& face) const { return face[0] < own_ && face[1] < own_ && face[2] < own_; }
+  bool Leaves(uint32_t v, uint32_t target, Rim rim) const {
+    return (rims_[v] & rim) != 0 && (rims_[target] & rim) == 0;
+  }
+  /// Would two rims meet at a point; the ring is that of v.
+  bool Pinches(uint32_t v, uint32_t target);
+  /// Do fewer faces of the subtree than neighbours lie around v.
+  bool IsOpen(uint32_t v);
   uint32_t CommonNeighbours(uint32_t target);
   bool AreNeighbours(uint32_t v, uint32_t other);
 
   uint32_t own_;
-  float scale_ = 1;  ///< of lengths in quadrics and costs; a power of two
+  float scale_ = 1;               ///< of lengths in quadrics and costs; a power of two
   std::vector<Vertex> vertices_;  ///< own vertices, then a point per foreign corner
   std::vector<Face> faces_;
   BlockLists<uint32_t> stars_;
+  std::vector<uint8_t> rims_;  ///< per own vertex: the Rims at which it is, or what it took in
   std::vector<uint32_t> ring_, collapsed_;  ///< ring_ has room for more than ring_size_
   uint32_t ring_size_ = 0;
   uint32_t stamp_ = 0;

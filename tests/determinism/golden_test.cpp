@@ -23,18 +23,18 @@ namespace {
 /// of the format: renew these together with FORMAT.md.
 constexpr uint64_t kDefaultHash = 0x3eed4fa439246c57;
 constexpr uint64_t kPaperHash = 0x76f94c3ecad33993;
-constexpr uint64_t kSubtreesHash = 0x3dfa291131c32090;
-constexpr uint64_t kRangeHash = 0xd7927fd705c2cb72;
-constexpr uint64_t kLeastEffortHash = 0x2a7d9cedb2a36293;
-constexpr uint64_t kMostEffortHash = 0x4ceed24b3e5fe389;
-constexpr uint64_t kVoxelHash = 0xa367692e0fa3c68a;
-constexpr uint64_t kExactVoxelHash = 0xd721f8422d7a47a9;
-constexpr uint64_t kSubdividedHash = 0x966dbe89b703fb7d;
-constexpr uint64_t kExactHash = 0x81b6c971539ad166;
-constexpr uint64_t kExactRestsHash = 0x271648e27da84273;
+constexpr uint64_t kSubtreesHash = 0xe3f848aee3b0b5f3;
+constexpr uint64_t kRangeHash = 0xdbf2d50235a04211;
+constexpr uint64_t kLeastEffortHash = 0x450408fe1a3c2f4a;
+constexpr uint64_t kMostEffortHash = 0xacbc829737d9931f;
+constexpr uint64_t kVoxelHash = 0x762ad3f59f106f2f;
+constexpr uint64_t kExactVoxelHash = 0xe8d20d978730cd7b;
+constexpr uint64_t kSubdividedHash = 0xe1a9bae9b0698f17;
+constexpr uint64_t kExactHash = 0x90d8a95cb2ffe553;
+constexpr uint64_t kExactRestsHash = 0x9ab6d6971fd73b32;
 constexpr uint64_t kOtherHash = 0x2bd26b2b44295eef;
-constexpr uint64_t kSoupHash = 0x541011601ecfab76;
-constexpr uint64_t kAttributesHash = 0x31b61682b561e2f4;
+constexpr uint64_t kSoupHash = 0x84f088d3323c94c;
+constexpr uint64_t kAttributesHash = 0xa1ae737962cce8ad;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

@@ -273,12 +273,11 @@ bool ContractionMesh::IsAllowed(uint32_t v, uint32_t target) {
     const float limit = kMostTurn * Dot(before, before) * Dot(after, after);
     if (agreement < 0 || agreement * agreement < limit) return false;
   }
-  if (rims_[v] != 0 && rims_[target] != 0 && Pinches(v, target)) return false;
   // The link condition: common neighbours lie on faces of the edge.
   return CommonNeighbours(target) <= shared;
 }
 
-bool ContractionMesh::Pinches(uint32_t v, uint32_t target) {
+bool ContractionMesh::HasEndsAtBoth(uint32_t v, uint32_t target) {
   uint32_t own = 0, shared = 0;
   for (uint32_t f : stars_.Of(v)) {
     const auto [a, b, c] = faces_[f];

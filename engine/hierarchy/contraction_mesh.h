@@ -47,6 +47,10 @@ class ContractionMesh {
   float CostOf(uint32_t v, uint32_t target, float length_weight) const;
   /// Would no face turn over, and the surface not be pinched. Of the v whose ring was collected.
   bool IsAllowed(uint32_t v, uint32_t target);
+  /// Would two places where the subtree's surface ends meet at a point. Of the same v.
+  bool PinchesRims(uint32_t v, uint32_t target) {
+    return rims_[v] != 0 && rims_[target] != 0 && HasEndsAtBoth(v, target);
+  }
   /// v goes; returns the distance of target from v's planes, lattice units.
   double Contract(uint32_t v, uint32_t target);
   /// Faces around v, collapsed ones too.
@@ -81,8 +85,8 @@ class ContractionMesh {
   bool Leaves(uint32_t v, uint32_t target, Rim rim) const {
     return (rims_[v] & rim) != 0 && (rims_[target] & rim) == 0;
   }
-  /// Would two rims meet at a point; the ring is that of v.
-  bool Pinches(uint32_t v, uint32_t target);
+  /// Do both lie where the surface ends, and the edge between them does not.
+  bool HasEndsAtBoth(uint32_t v, uint32_t target);
   /// Do fewer faces of the subtree than neighbours lie around v.
   bool IsOpen(uint32_t v);
   uint32_t CommonNeighbours(uint32_t target);

@@ -107,6 +107,10 @@ class Contractor {
     mesh_.PrefetchCorners(before(5));
   }
 
+  bool MayContract(uint32_t v, uint32_t target) {
+    return mesh_.IsAllowed(v, target) && !mesh_.PinchesRims(v, target);
+  }
+
   /// Contracts v into its best neighbour, or puts it back with a higher cost.
   void Consider(uint32_t v) {
     if (!CollectCandidates(v)) return;
@@ -117,7 +121,7 @@ class Contractor {
       queue_.Push(v, best->cost);
       return;
     }
-    if (forced_[v] != 0 || mesh_.IsAllowed(v, best->target)) {
+    if (forced_[v] != 0 || MayContract(v, best->target)) {
       Contract(v, *best);
       return;
     }
@@ -125,7 +129,7 @@ class Contractor {
     std::sort(candidates_.begin(), candidates_.end());
     for (size_t i = 1; i < candidates_.size(); ++i) {
       const Candidate& candidate = candidates_[i];
-      if (!mesh_.IsAllowed(v, candidate.target)) continue;
+      if (!MayContract(v, candidate.target)) continue;
       if (candidate.cost <= 2 * limit) {
         Contract(v, candidate);
       } else {
@@ -137,7 +141,8 @@ class Contractor {
     queue_.Push(v, std::max(candidates_[0].cost, kLeastCost) * kForbiddenFactor);
   }
 
-  /// Into a neighbour on the grid; where there is none, or it may not be, v stays.
+  /// Into a neighbour on the grid; where there is none, or it may not be, v stays. Rims may meet
+  /// there: a row or column that goes as a whole is worth more.
   void ThinGrid(const GridStep& step) {
     const uint32_t v = step.vertex;
     if (!mesh_.IsLive(v) || !CollectCandidates(v)) return;

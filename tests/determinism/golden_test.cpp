@@ -23,18 +23,18 @@ namespace {
 /// of the format: renew these together with FORMAT.md.
 constexpr uint64_t kDefaultHash = 0x3eed4fa439246c57;
 constexpr uint64_t kPaperHash = 0x76f94c3ecad33993;
-constexpr uint64_t kSubtreesHash = 0xe3f848aee3b0b5f3;
-constexpr uint64_t kRangeHash = 0xdbf2d50235a04211;
-constexpr uint64_t kLeastEffortHash = 0x450408fe1a3c2f4a;
-constexpr uint64_t kMostEffortHash = 0xacbc829737d9931f;
-constexpr uint64_t kVoxelHash = 0x762ad3f59f106f2f;
-constexpr uint64_t kExactVoxelHash = 0xe8d20d978730cd7b;
-constexpr uint64_t kSubdividedHash = 0xe1a9bae9b0698f17;
-constexpr uint64_t kExactHash = 0x90d8a95cb2ffe553;
-constexpr uint64_t kExactRestsHash = 0x9ab6d6971fd73b32;
+constexpr uint64_t kSubtreesHash = 0x8a0d3aadea95f08a;
+constexpr uint64_t kRangeHash = 0xcbdb17f0b4f75e02;
+constexpr uint64_t kLeastEffortHash = 0x69004cb346a56890;
+constexpr uint64_t kMostEffortHash = 0x8093250c99e5f655;
+constexpr uint64_t kVoxelHash = 0x7586fabdab0ae8ee;
+constexpr uint64_t kExactVoxelHash = 0x9b2baaf8cfa65bed;
+constexpr uint64_t kSubdividedHash = 0x1f91978e2db72809;
+constexpr uint64_t kExactHash = 0x14fb8f19b56598b1;
+constexpr uint64_t kExactRestsHash = 0xfce5677c849a1e75;
 constexpr uint64_t kOtherHash = 0x2bd26b2b44295eef;
-constexpr uint64_t kSoupHash = 0x84f088d3323c94c;
-constexpr uint64_t kAttributesHash = 0xa1ae737962cce8ad;
+constexpr uint64_t kSoupHash = 0xf4eff58b9b04c1b7;
+constexpr uint64_t kAttributesHash = 0x67530177cb9d383;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

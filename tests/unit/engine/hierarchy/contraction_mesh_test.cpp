@@ -34,8 +34,8 @@ TEST(ContractionMesh, AStripIsNotPinchedAcross) {
   ContractionMesh mesh(strip.positions, strip.faces, {}, 0);
   const uint32_t low = strip.At(3, 0), high = strip.At(3, 1);
   mesh.CollectRing(low);
-  EXPECT_FALSE(mesh.IsAllowed(low, high)) << "both ends of the edge are open";
-  EXPECT_TRUE(mesh.IsAllowed(low, strip.At(4, 0))) << "along the border";
+  EXPECT_TRUE(mesh.PinchesRims(low, high)) << "both ends of the edge are open";
+  EXPECT_FALSE(mesh.PinchesRims(low, strip.At(4, 0))) << "along the border";
 }
 
 TEST(ContractionMesh, AVertexOfTheBorderMayGoInsideAndOneInsideToTheBorder) {
@@ -43,8 +43,10 @@ TEST(ContractionMesh, AVertexOfTheBorderMayGoInsideAndOneInsideToTheBorder) {
   ContractionMesh mesh(sheet.positions, sheet.faces, {}, 0);
   mesh.CollectRing(sheet.At(3, 0));
   EXPECT_TRUE(mesh.IsAllowed(sheet.At(3, 0), sheet.At(3, 1)));
+  EXPECT_FALSE(mesh.PinchesRims(sheet.At(3, 0), sheet.At(3, 1)));
   mesh.CollectRing(sheet.At(3, 1));
   EXPECT_TRUE(mesh.IsAllowed(sheet.At(3, 1), sheet.At(3, 0)));
+  EXPECT_FALSE(mesh.PinchesRims(sheet.At(3, 1), sheet.At(3, 0)));
 }
 
 /// Faces into another subtree below the lowest row.

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "engine/codec/border_file.h"
 #include "engine/codec/layer_reader.h"
@@ -98,16 +99,36 @@ class Pipeline {
     return WindowOf(table_, subtrees, drawn, memory_bytes_, runner_.threads());
   }
 
+  /// Where in `wanted` the tasks go, one after the other. Of few the largest come first, so that
+  /// what is left to the last threads is small; the results of all of them may have to wait then.
+  std::vector<size_t> OrderOfTasks(size_t window) const {
+    const std::vector<uint32_t>& wanted = selection_.wanted;
+    std::vector<size_t> order(wanted.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    if (wanted.size() > 2 * window) return order;
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+      return table_.subtrees[wanted[a]].vertices > table_.subtrees[wanted[b]].vertices;
+    });
+    return order;
+  }
+
   void DecodeWanted() {
     const std::vector<uint32_t>& wanted = selection_.wanted;
     const size_t window = StartStage("decode", wanted);
+    const std::vector<size_t> order = OrderOfTasks(window);
     std::vector<DecodedPart> parts(wanted.size());
+    std::vector<bool> is_ready(wanted.size(), false);
+    size_t next = 0;
+    // The sink gets them in ascending order, whichever come first.
     runner_.Ordered(
-        wanted.size(), window, [&](size_t i) { parts[i] = DecodeSubtree(wanted[i]); },
+        wanted.size(), window, [&](size_t i) { parts[order[i]] = DecodeSubtree(wanted[order[i]]); },
         [&](size_t i) {
-          sink_.AddSubtree({wanted[i], parts[i].positions, parts[i].exact, parts[i].faces,
-                            parts[i].border_vertices, parts[i].attributes});
-          parts[i] = DecodedPart();
+          is_ready[order[i]] = true;
+          for (; next < parts.size() && is_ready[next]; ++next) {
+            DecodedPart part = std::exchange(parts[next], {});
+            sink_.AddSubtree({wanted[next], part.positions, part.exact, part.faces,
+                              part.border_vertices, part.attributes});
+          }
         });
   }
 

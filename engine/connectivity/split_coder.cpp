@@ -2,36 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "engine/connectivity/lean.h"
 #include "engine/entropy/bit_coder.h"
 #include "engine/entropy/fixed_math.h"
 
 namespace folprom {
 namespace {
 
-constexpr uint32_t kLeanBuckets = 12;
 constexpr uint32_t kRegularityBuckets = 16;
-
-double SquaredDistance(const Int3& a, const Int3& b) {
-  double x = static_cast<double>(a.x) - b.x, y = static_cast<double>(a.y) - b.y,
-         z = static_cast<double>(a.z) - b.z;
-  return x * x + y * y + z * z;
-}
-
-/// Difference of squared distances to the children over that between them, in 1/128.
-int32_t LeanOf(double to_first, double to_second, double between) {
-  const double lean = between > 0 ? 128 * (to_first - to_second) / between : 0;
-  return static_cast<int32_t>(std::clamp(lean, -1e6, 1e6));
-}
-
-uint32_t LeanBucket(int32_t lean) {
-  constexpr int32_t kBounds[kLeanBuckets - 1] = {10, 22, 36, 52, 70, 90, 112, 140, 180, 250, 400};
-  int32_t size = lean < 0 ? -lean : lean;
-  uint32_t bucket = 0;
-  while (bucket < kLeanBuckets - 1 && size >= kBounds[bucket]) ++bucket;
-  return bucket;
-}
 
 uint32_t RegularityBucket(uint32_t regularity) {
   int bucket = HalfOctave(regularity) - 17;  // an equilateral triangle gives 27 * 16
@@ -284,125 +263,6 @@ void SplitCoder::CodeSides(Coder& coder, SplitOracle* oracle, SplitMeters* meter
     last = farther ? (nearer == kFirst ? kSecond : kFirst) : nearer;
     SpreadSide(index, last);
     ++decided;
-  }
-}
-
-void SplitCoder::CountFace(const SplitStar::StarFace& face) {
-  for (uint32_t i = 0; i < 2; ++i) {
-    if (face.end[i] == kNone) continue;
-    auto& neighbour = star_.neighbours[face.end[i]];
-    // End 0 follows the split vertex: the face runs first -> neighbour, the new face
-    // (first, second, neighbour) back; so they agree.
-    const auto cast = [&](int vote) {
-      neighbour.votes = static_cast<int8_t>(std::clamp(neighbour.votes + vote, -2, 2));
-    };
-    if (face.side & kFirst) {
-      neighbour.faces_first = static_cast<uint16_t>(AtMost(neighbour.faces_first + 1u, 2));
-      cast((i == 0) != face.turns.first ? 1 : -1);
-    }
-    if (face.side & kSecond) {
-      neighbour.faces_second = static_cast<uint16_t>(AtMost(neighbour.faces_second + 1u, 2));
-      cast((i == 0) != face.turns.second ? -1 : 1);
-    }
-  }
-}
-
-template <class Coder>
-void SplitCoder::CodeFaces(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
-                           const Known& known, SplitOracle* oracle) {
-  const double between = SquaredDistance(known.first, known.second);
-  for (auto& face : star_.faces) {
-    int possible = kBoth;
-    int32_t lean = 0;
-    for (uint32_t i = 0; i < 2; ++i) {
-      if (face.end[i] != kNone) {
-        possible &= star_.neighbours[face.end[i]].side;
-        lean += star_.neighbours[face.end[i]].lean / 2;
-        continue;
-      }
-      const Int3& foreign = positions[complex.Opposite(face.corner)[i]];
-      lean += LeanOf(SquaredDistance(foreign, known.first), SquaredDistance(foreign, known.second),
-                     between) /
-              2;
-    }
-    if (possible == kBoth) {
-      Side truth = kUndecided;
-      if constexpr (Coder::kEncoding) truth = oracle->FaceSide(face.corner / 3);
-      uint32_t pivots = AtMost(pivots_, 3), bucket = LeanBucket(lean);
-      uint32_t foreign = face.end[0] == kNone || face.end[1] == kNone ? 1 : 0;
-      if (face_both_.Code(coder, {pivots * 4 + (star_.connected ? 2u : 0u) + foreign, bucket / 3},
-                          0, truth == kBoth)) {
-        face.side = kBoth;
-        if constexpr (Coder::kEncoding) face.turns = oracle->TurnsOf(complex, face.corner / 3);
-        face.turns.first = face_turn_.Code(coder, {0}, 0, face.turns.first);
-        const uint32_t context = face.turns.first ? 2 : 1;
-        face.turns.second = face_turn_.Code(coder, {context}, 0, face.turns.second);
-      } else {
-        Side nearer = lean < 0 ? kFirst : kSecond;
-        bool farther = face_side_.Code(coder, {bucket, pivots}, 0, truth != nearer);
-        face.side = farther ? (nearer == kFirst ? kSecond : kFirst) : nearer;
-      }
-    } else {
-      face.side = static_cast<Side>(possible);
-    }
-    CountFace(face);
-  }
-}
-
-template <class Coder>
-void SplitCoder::CodeNewFaces(Coder& coder, SplitOracle* oracle, Complex& complex) {
-  if (!star_.connected) return;
-  uint32_t made = 0;
-  uint32_t before = 0;  // orientation of the face made last: 0 none, 1 backward, 2 forward
-  for (uint32_t index : order_) {
-    auto& neighbour = star_.neighbours[index];
-    if (neighbour.side != kBoth) continue;
-    bool exists = false;
-    if constexpr (Coder::kEncoding) exists = oracle->HasNewFace(neighbour.vertex);
-    uint32_t around = neighbour.faces_first * 3u + neighbour.faces_second;
-    exists = new_face_.Code(
-        coder, {around * 3 + AtMost(made, 2), AtMost(pivots_, 5) * 3 + AtMost(made, 2)}, 0, exists);
-    if (!exists) continue;
-    bool forward = false;
-    if constexpr (Coder::kEncoding) forward = oracle->NewFaceForward(neighbour.vertex);
-    uint32_t votes = static_cast<uint32_t>(neighbour.votes + 2);
-    forward = orientation_.Code(coder, {votes * 3 + before}, 0, forward);
-    before = forward ? 2 : 1;
-    ++made;
-    neighbour.new_face = forward ? complex.AddFace(star_.vertex, star_.second, neighbour.vertex)
-                                 : complex.AddFace(star_.second, star_.vertex, neighbour.vertex);
-  }
-}
-
-void SplitCoder::AddFanFaces(Complex& complex) {
-  for (uint32_t place : {cut_.begin, cut_.end}) {
-    if (fan_.IsOutside(place)) continue;
-    auto& pivot = star_.neighbours[fan_.neighbour[place]];
-    pivot.new_face = place == cut_.end ? complex.AddFace(star_.vertex, star_.second, pivot.vertex)
-                                       : complex.AddFace(star_.second, star_.vertex, pivot.vertex);
-  }
-}
-
-void SplitCoder::ApplySides(Complex& complex) {
-  for (auto& neighbour : star_.neighbours) {
-    if (neighbour.side == kSecond) {
-      complex.MoveHalfEdge(neighbour.half_edge, star_.vertex, star_.second);
-    } else if (neighbour.side == kBoth) {
-      neighbour.new_edge = complex.AddEdge(star_.second, neighbour.vertex);
-    }
-  }
-  if (star_.connected && owns_child_edge_) {
-    star_.child_edge = complex.AddEdge(star_.vertex, star_.second);
-  }
-  for (auto& face : star_.faces) {
-    if (face.side == kSecond) {
-      complex.MoveCorner(face.corner, star_.vertex, star_.second);
-    } else if (face.side == kBoth) {
-      auto [next, previous] = complex.Opposite(face.corner);
-      if (face.turns.second) std::swap(next, previous);
-      face.new_face = complex.AddFace(star_.second, next, previous);
-      if (face.turns.first) complex.TurnFace(face.corner);
-    }
   }
 }
 

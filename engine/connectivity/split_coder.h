@@ -93,6 +93,13 @@ class SplitCoder {
   template <class Coder>
   void CodeSides(Coder& coder, SplitOracle* oracle, SplitMeters* meters);
   void SpreadSide(uint32_t start, Side side);
+  /// Of its two corners beside the split vertex, the mean.
+  int32_t LeanOfFace(const Complex& complex, const std::vector<Int3>& positions, const Known& known,
+                     const SplitStar::StarFace& face) const;
+  /// Of a face whose other corners are both connected to both children.
+  template <class Coder>
+  void CodeFreeFace(Coder& coder, const Complex& complex, int32_t lean, SplitOracle* oracle,
+                    SplitStar::StarFace* face);
   template <class Coder>
   void CodeFaces(Coder& coder, const Complex& complex, const std::vector<Int3>& positions,
                  const Known& known, SplitOracle* oracle);

@@ -1,7 +1,6 @@
 #include "engine/codec/border_seam_truth.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "folprom/result.h"
@@ -72,14 +71,12 @@ BorderSeamTruth::Input BorderSeamTruth::Collect(const std::vector<SeamMember>& m
     auto vertex = [&](size_t i) { return finder.Find(member[i], face.vertex[i].local); };
     if (all_here) {
       input.triples.push_back({vertex(0), vertex(1), vertex(2)});
-      std::array<uint32_t, 3> sorted{static_cast<uint32_t>(member[0]),
-                                     static_cast<uint32_t>(member[1]),
-                                     static_cast<uint32_t>(member[2])};
+      const Face of_face{static_cast<uint32_t>(member[0]), static_cast<uint32_t>(member[1]),
+                         static_cast<uint32_t>(member[2])};
+      Face sorted = of_face;
       std::sort(sorted.begin(), sorted.end());
       if (sorted[0] != sorted[1] && sorted[1] != sorted[2]) {
-        const size_t lowest = member[0] == sorted[0] ? 0 : (member[1] == sorted[0] ? 1 : 2);
-        const bool forward = member[(lowest + 1) % 3] == sorted[1];
-        input.root_faces.push_back({sorted[0], sorted[1], forward});
+        input.root_faces.push_back({sorted[0], sorted[1], RunsAlong(sorted, of_face)});
       }
       continue;
     }

@@ -22,6 +22,12 @@ inline uint32_t PreviousCorner(uint32_t corner) {
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
+/// Of two triples of the same three vertices: do they run the same way round.
+inline bool RunsAlong(const Face& face, const Face& other) {
+  const size_t place = face[0] == other[0] ? 0 : (face[1] == other[0] ? 1 : 2);
+  return face[(place + 1) % 3] == other[1];
+}
+
 /// Vertices, edges and faces that only ever grow in number. An edge is two half-edges, 2e and 2e+1;
 /// a face has three corners, 3f .. 3f+2. Half-edges and corners of a vertex are contiguous, and
 /// each knows its place there, so that it moves from one vertex to another in constant time,

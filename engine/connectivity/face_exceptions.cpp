@@ -9,14 +9,6 @@
 namespace folprom {
 namespace {
 
-/// Does (a, b, c) run around the face in its direction.
-bool SameOrientation(const Face& face, const Face& original) {
-  for (size_t i = 0; i < 3; ++i) {
-    if (face[i] == original[0]) return face[(i + 1) % 3] == original[1];
-  }
-  return false;
-}
-
 /// Degenerate original on the edge (a, b), a < b: does it hold `b` twice.
 struct EdgeFace {
   uint32_t a, b;
@@ -37,7 +29,7 @@ FaceCensus TakeCensus(const Complex& complex, const std::vector<Face>& originals
   for (size_t i = 0; i < originals.size(); ++i) {
     const Face& face = originals[i];
     if (face_of[i] != kNone) {
-      bool same = SameOrientation(complex.face(face_of[i]), face);
+      bool same = RunsAlong(complex.face(face_of[i]), face);
       ++(same ? census.forward : census.backward)[face_of[i]];
     } else if (face[0] == face[1] && face[1] == face[2]) {
       ++census.on_vertex[face[0]];

@@ -93,7 +93,7 @@ class SplitCoder {
   template <class Coder>
   void CodeSides(Coder& coder, SplitOracle* oracle, SplitMeters* meters);
   void SpreadSide(uint32_t start, Side side);
-  /// Of its two corners beside the split vertex, the mean.
+  /// How a face leans: the mean of its two corners beside the split vertex.
   int32_t LeanOfFace(const Complex& complex, const std::vector<Int3>& positions, const Known& known,
                      const SplitStar::StarFace& face) const;
   /// Of a face whose other corners are both connected to both children.

@@ -35,8 +35,7 @@ void SplitOracle::AttachInitial(const Complex& complex) {
   face_of_label_.resize(complex.face_count());
   for (uint32_t f = 0; f < complex.face_count(); ++f) face_of_label_[f] = records_[f].label = f;
   for (uint32_t t = 0; t < faces_.size(); ++t) {
-    uint32_t set[3];
-    for (size_t i = 0; i < 3; ++i) set[i] = vertex_of_label_[vertex_label_[faces_[t][i]]];
+    const Face set = SetsOf(t);
     for (size_t i = 0; i < 3; ++i) {
       for (const auto& [target, h] : complex.Spokes(set[i])) {
         // Each pair of corners is met twice over the loop, once in each direction.
@@ -50,7 +49,7 @@ void SplitOracle::AttachInitial(const Complex& complex) {
       if ((next == set[1] && previous == set[2]) || (next == set[2] && previous == set[1])) {
         face_label_[t] = c / 3;
         ++records_[c / 3].count;
-        records_[c / 3].along += RunsAlong(complex, t, c / 3) ? 1 : -1;
+        records_[c / 3].along += RunsAlong(complex.face(c / 3), SetsOf(t)) ? 1 : -1;
       }
     }
   }
@@ -132,19 +131,16 @@ Side SplitOracle::FaceSide(uint32_t face) const {
   return SideOf(entry.stamp == stamp_ ? entry.count : 0, records_[face].count);
 }
 
-bool SplitOracle::RunsAlong(const Complex& complex, uint32_t original, uint32_t face) const {
-  const Face set = complex.face(face);
-  const Face& vertices = faces_[original];
-  const size_t place =
-      static_cast<size_t>(std::find(set.begin(), set.end(), VertexOf(vertices[0])) - set.begin());
-  return set[(place + 1) % 3] == VertexOf(vertices[1]);
+Face SplitOracle::SetsOf(uint32_t original) const {
+  const auto [a, b, c] = faces_[original];
+  return {VertexOf(a), VertexOf(b), VertexOf(c)};
 }
 
 void SplitOracle::CountAlong(const Complex& complex) {
   has_counted_along_ = true;
   for (const uint32_t t : touched_faces_) {
     const uint32_t face = face_of_label_[face_label_[t]];
-    face_[face].along += RunsAlong(complex, t, face) ? 1 : -1;
+    face_[face].along += RunsAlong(complex.face(face), SetsOf(t)) ? 1 : -1;
   }
 }
 
@@ -234,7 +230,7 @@ FaceCensus TakeCensus(const Complex& complex, const SplitOracle& oracle, size_t 
   std::vector<Face> originals(real_faces);
   std::vector<uint32_t> face_of(real_faces);
   for (uint32_t i = 0; i < real_faces; ++i) {
-    for (size_t k = 0; k < 3; ++k) originals[i][k] = oracle.VertexOf(oracle.faces()[i][k]);
+    originals[i] = oracle.SetsOf(i);
     face_of[i] = oracle.FaceOf(i);
   }
   return TakeCensus(complex, originals, face_of);

@@ -52,6 +52,8 @@ class SplitOracle {
     uint32_t label = face_label_[original_face];
     return label == kNone ? kNone : face_of_label_[label];
   }
+  /// The LOD vertices that an original face lies on now.
+  Face SetsOf(uint32_t original_face) const;
   uint32_t VertexOf(uint32_t original_vertex) const {
     return vertex_of_label_[vertex_label_[original_vertex]];
   }
@@ -94,7 +96,6 @@ class SplitOracle {
   void CommitNewFaces(const SplitStar& star);
   /// along: of the originals, along the face or against it.
   void AddFaceRecord(uint32_t face, uint32_t count, int32_t along, uint32_t label);
-  bool RunsAlong(const Complex& complex, uint32_t original, uint32_t face) const;
   void CountAlong(const Complex& complex);
 
   std::vector<Face> faces_;

@@ -12,12 +12,18 @@ constexpr float kMostReach = 8192;
 /// A vertex at the border to another subtree that would go inside costs so many times more: along
 /// it neighbours keep half rings that are even, and what joins them to those beyond is told sooner.
 constexpr float kBorderFactor = 16;
+/// Of a hub, a vertex with a larger star, nobody asks whether rims meet: each of its spokes would
+/// go through all of it.
+constexpr uint32_t kMostLookedAt = 4096;
 /// Square of the cosine by which a face may turn.
 constexpr float kMostTurn = 0.04F;
 
 using Offset = Quadric::Offset;
 
 float Dot(const Offset& a, const Offset& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+bool IsCollapsed(const Face& face) {
+  return face[0] == face[1] || face[1] == face[2] || face[0] == face[2];
+}
 Offset Cross(const Offset& a, const Offset& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -118,7 +124,7 @@ std::span<const uint32_t> ContractionMesh::CollectRing(uint32_t v) {
     const uint32_t f = stars_.At(v, i);
     for (uint32_t& corner : faces_[f]) corner = Find(corner);
     const auto [a, b, c] = faces_[f];
-    if (a == b || b == c || a == c) {
+    if (IsCollapsed(faces_[f])) {
       if (a != b || b != c) collapsed_.push_back(f);
       continue;
     }
@@ -148,14 +154,14 @@ float ContractionMesh::CostOf(uint32_t v, uint32_t target, float length_weight) 
   const Quadric& own = vertices_[v].quadric;
   const float error = own.At(offset) + vertices_[target].quadric.constant;
   const float cost = error + length_weight * own.weight * Dot(offset, offset);
-  return Leaves(v, target, kBorder) ? kBorderFactor * cost : cost;
+  return LeavesBorder(v, target) ? kBorderFactor * cost : cost;
 }
 
 bool ContractionMesh::IsAllowed(uint32_t v, uint32_t target) {
   uint32_t shared = 0;
   for (uint32_t f : stars_.Of(v)) {
     const Face& face = faces_[f];
-    if (face[0] == face[1] || face[1] == face[2] || face[0] == face[2]) continue;
+    if (IsCollapsed(face)) continue;
     if (face[0] == target || face[1] == target || face[2] == target) {
       ++shared;
       continue;
@@ -172,13 +178,14 @@ bool ContractionMesh::IsAllowed(uint32_t v, uint32_t target) {
   return CommonNeighbours(target) <= shared;
 }
 
-bool ContractionMesh::HasEndsAtBoth(uint32_t v, uint32_t target) {
+bool ContractionMesh::PinchesRims(uint32_t v, uint32_t target) {
+  if (rims_[v] == 0 || rims_[target] == 0 || stars_.SizeOf(target) > kMostLookedAt) return false;
   uint32_t own = 0, shared = 0;
   for (uint32_t f : stars_.Of(v)) {
-    const auto [a, b, c] = faces_[f];
-    if (a == b || b == c || a == c || !IsOwn(faces_[f])) continue;
+    const Face& face = faces_[f];
+    if (IsCollapsed(face) || !IsOwn(face)) continue;
     ++own;
-    shared += a == target || b == target || c == target ? 1 : 0;
+    shared += std::find(face.begin(), face.end(), target) != face.end() ? 1 : 0;
   }
   return shared > 1 && own < ring_size_ && IsOpen(target);
 }
@@ -188,10 +195,9 @@ bool ContractionMesh::IsOpen(uint32_t v) {
   vertices_[v].stamp = ++stamp_;
   for (uint32_t f : stars_.Of(v)) {
     for (uint32_t& corner : faces_[f]) corner = Find(corner);
-    const auto [a, b, c] = faces_[f];
-    if (a == b || b == c || a == c || !IsOwn(faces_[f])) continue;
+    if (IsCollapsed(faces_[f]) || !IsOwn(faces_[f])) continue;
     ++faces;
-    for (uint32_t w : {a, b, c}) {
+    for (uint32_t w : faces_[f]) {
       neighbours += vertices_[w].stamp != stamp_ ? 1 : 0;
       vertices_[w].stamp = stamp_;
     }

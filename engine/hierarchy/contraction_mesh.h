@@ -48,9 +48,7 @@ class ContractionMesh {
   /// Would no face turn over, and the surface not be pinched. Of the v whose ring was collected.
   bool IsAllowed(uint32_t v, uint32_t target);
   /// Would two places where the subtree's surface ends meet at a point. Of the same v.
-  bool PinchesRims(uint32_t v, uint32_t target) {
-    return rims_[v] != 0 && rims_[target] != 0 && HasEndsAtBoth(v, target);
-  }
+  bool PinchesRims(uint32_t v, uint32_t target);
   /// v goes; returns the distance of target from v's planes, lattice units.
   double Contract(uint32_t v, uint32_t target);
   /// Faces around v, collapsed ones too.
@@ -82,11 +80,9 @@ class ContractionMesh {
   void AddToRing(uint32_t w);
   std::span<const uint32_t> Ring() const { return std::span(ring_).first(ring_size_); }
   bool IsOwn(const Face& face) const { return face[0] < own_ && face[1] < own_ && face[2] < own_; }
-  bool Leaves(uint32_t v, uint32_t target, Rim rim) const {
-    return (rims_[v] & rim) != 0 && (rims_[target] & rim) == 0;
+  bool LeavesBorder(uint32_t v, uint32_t target) const {
+    return (rims_[v] & kBorder) != 0 && (rims_[target] & kBorder) == 0;
   }
-  /// Do both lie where the surface ends, and the edge between them does not.
-  bool HasEndsAtBoth(uint32_t v, uint32_t target);
   /// Do fewer faces of the subtree than neighbours lie around v.
   bool IsOpen(uint32_t v);
   uint32_t CommonNeighbours(uint32_t target);

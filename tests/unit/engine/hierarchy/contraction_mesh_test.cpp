@@ -49,6 +49,21 @@ TEST(ContractionMesh, AVertexOfTheBorderMayGoInsideAndOneInsideToTheBorder) {
   EXPECT_FALSE(mesh.PinchesRims(sheet.At(3, 1), sheet.At(3, 0)));
 }
 
+TEST(ContractionMesh, RimsMeetAtAHubRatherThanThatEachSpokeGoesThroughAllOfIt) {
+  for (const int32_t spokes : {10, 5000}) {
+    std::vector<Int3> positions{{0, 0, 0}};
+    std::vector<Face> faces;
+    for (int32_t i = 0; i < spokes; ++i) {
+      positions.push_back({100 * i, 100 * spokes, 0});
+      const auto last = static_cast<uint32_t>(positions.size() - 1);
+      if (i > 0) faces.push_back({0, last, last - 1});
+    }
+    ContractionMesh mesh(positions, faces, {}, 0);
+    mesh.CollectRing(5);
+    EXPECT_EQ(mesh.PinchesRims(5, 0), spokes == 10);
+  }
+}
+
 /// Faces into another subtree below the lowest row.
 std::vector<CrossFace> FacesBelow(const Sheet& sheet) {
   std::vector<CrossFace> faces;

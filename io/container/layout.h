@@ -1,6 +1,7 @@
 // Where every segment and every checksum stands, from the sizes alone: the same on both sides.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,8 +11,12 @@
 
 namespace folprom::io {
 
-/// A group of segments is closed as soon as it has this many bytes.
-inline constexpr uint64_t kGroupBytes = 512;
+/// A group of segments is closed as soon as it has this many bytes: of a file of few subtrees, of
+/// which each is a large part anyway, more than of one whose regions are read alone.
+inline uint64_t GroupBytes(size_t subtrees) {
+  constexpr uint64_t kLeast = 512, kOfAll = 32768;
+  return std::max(kLeast, kOfAll / std::max<uint64_t>(subtrees, 1));
+}
 /// Of a group, and of a table between layers.
 inline constexpr uint64_t kGroupChecksumBytes = 4;
 

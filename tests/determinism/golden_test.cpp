@@ -22,19 +22,19 @@ namespace {
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
 constexpr uint64_t kDefaultHash = 0x3eed4fa439246c57;
-constexpr uint64_t kPaperHash = 0x76f94c3ecad33993;
-constexpr uint64_t kSubtreesHash = 0x8a0d3aadea95f08a;
-constexpr uint64_t kRangeHash = 0xcbdb17f0b4f75e02;
-constexpr uint64_t kLeastEffortHash = 0x69004cb346a56890;
-constexpr uint64_t kMostEffortHash = 0x8093250c99e5f655;
-constexpr uint64_t kVoxelHash = 0x7586fabdab0ae8ee;
-constexpr uint64_t kExactVoxelHash = 0x9b2baaf8cfa65bed;
-constexpr uint64_t kSubdividedHash = 0x1f91978e2db72809;
-constexpr uint64_t kExactHash = 0x14fb8f19b56598b1;
-constexpr uint64_t kExactRestsHash = 0xfce5677c849a1e75;
-constexpr uint64_t kOtherHash = 0x2bd26b2b44295eef;
-constexpr uint64_t kSoupHash = 0xf4eff58b9b04c1b7;
-constexpr uint64_t kAttributesHash = 0x67530177cb9d383;
+constexpr uint64_t kPaperHash = 0x4007143afbaf70a6;
+constexpr uint64_t kSubtreesHash = 0x8cc878b4744f34cd;
+constexpr uint64_t kRangeHash = 0x7891c10620492957;
+constexpr uint64_t kLeastEffortHash = 0x4a5cd71a2bcced09;
+constexpr uint64_t kMostEffortHash = 0xcaada39f9264a09f;
+constexpr uint64_t kVoxelHash = 0x18aa4c1770a47a66;
+constexpr uint64_t kExactVoxelHash = 0x175fad48e2ed1ff9;
+constexpr uint64_t kSubdividedHash = 0xfafce03f88c22dbf;
+constexpr uint64_t kExactHash = 0xd5b0782c4e59a01d;
+constexpr uint64_t kExactRestsHash = 0xe35230c5af40cda7;
+constexpr uint64_t kOtherHash = 0x635e8f099bed4acb;
+constexpr uint64_t kSoupHash = 0x70ede8c70078821b;
+constexpr uint64_t kAttributesHash = 0x64dc3976b23158c0;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

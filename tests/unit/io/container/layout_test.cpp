@@ -27,18 +27,25 @@ Ends GroupsOf(const FileLayout& layout) {
   return groups;
 }
 
-TEST(Layout, JoinsSegmentsUntilAGroupHas512Bytes) {
-  const FileLayout layout = LayoutOf(TableOf({511, 1, 512, 0}), 100);
-  EXPECT_EQ(GroupsOf(layout), (Ends{{100, 612}, {616, 1128}}));
-  EXPECT_EQ(layout.segment_begin(), (std::vector<uint64_t>{100, 611, 616, 1132}));
-  EXPECT_EQ(layout.end(), 1132u);
+TEST(Layout, JoinsSegmentsUntilAGroupHasItsBytes) {
+  const FileLayout layout = LayoutOf(TableOf({16383, 1, 16384, 0}), 100);
+  EXPECT_EQ(GroupsOf(layout), (Ends{{100, 16484}, {16488, 32872}}));
+  EXPECT_EQ(layout.segment_begin(), (std::vector<uint64_t>{100, 16483, 16488, 32876}));
+  EXPECT_EQ(layout.end(), 32876u);
   EXPECT_EQ(layout.checksum_bytes(), 8u);
 }
 
+TEST(Layout, GroupsOfManySubtreesAreSmall) {
+  EXPECT_EQ(GroupBytes(1), 32768u);
+  EXPECT_EQ(GroupBytes(10), 3276u);
+  EXPECT_EQ(GroupBytes(64), 512u);
+  EXPECT_EQ(GroupBytes(100000), 512u);
+}
+
 TEST(Layout, TheRestOfALayerIsItsOwnGroup) {
-  const FileLayout layout = LayoutOf(TableOf({600, 5, 0, 6, 7, 0, 0, 0}), 0);
-  EXPECT_EQ(GroupsOf(layout), (Ends{{0, 600}, {604, 615}, {619, 626}}));
-  EXPECT_EQ(layout.layer_end(), (std::vector<uint64_t>{619, 630}));
+  const FileLayout layout = LayoutOf(TableOf({20000, 5, 0, 6, 7, 0, 0, 0}), 0);
+  EXPECT_EQ(GroupsOf(layout), (Ends{{0, 20000}, {20004, 20015}, {20019, 20026}}));
+  EXPECT_EQ(layout.layer_end(), (std::vector<uint64_t>{20019, 20030}));
 }
 
 TEST(Layout, ALayerWithoutBytesHasNoChecksum) {

@@ -9,6 +9,7 @@
 #include "io/container/byte_code.h"
 #include "io/container/checksum.h"
 #include "io/container/header.h"
+#include "io/container/layout.h"
 #include "samples.h"
 
 namespace folprom::io {
@@ -158,7 +159,8 @@ TEST(ContainerReader, EveryFlippedBitIsFound) {
 }
 
 TEST(ContainerReader, DamageStaysInsideItsGroup) {
-  const FileTable table = ExampleTable();
+  FileTable table = ExampleTable();
+  const uint64_t group = table.segment_bytes[4] = GroupBytes(table.subtrees.size());
   auto file = SampleFile(table);
   const uint64_t first_of_layer_1 = ContainerReader::Open(file, "f")->LayerEnd(0);
   file[first_of_layer_1] ^= 1;
@@ -170,7 +172,7 @@ TEST(ContainerReader, DamageStaysInsideItsGroup) {
   const auto error = reader->Segment(1, 0, SegmentPart::kInner).error();
   EXPECT_EQ(error.message, "scan.folp: layer 1, subtree 0, inner segment: checksum of bytes " +
                                std::to_string(first_of_layer_1) + " to " +
-                               std::to_string(first_of_layer_1 + 600) + " differs");
+                               std::to_string(first_of_layer_1 + group) + " differs");
 }
 
 TEST(ContainerReader, RejectsExtraBytes) {

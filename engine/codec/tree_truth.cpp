@@ -171,8 +171,11 @@ FaceCensus TreeTruth::CountFaces(const Complex& complex) const {
 
 double TreeTruth::LargestDistance(const std::vector<Int3>& positions) const {
   double largest2 = 0;
-  for (uint32_t v = 0; v < chunk_.positions.size(); ++v) {
-    Vector3 d = Difference(chunk_.positions[v], positions[VertexOf(v)]);
+  // In the order of the tree neighbours have one representative.
+  const std::vector<uint32_t>& order = tree_.order();
+  for (uint32_t place = 0; place < order.size(); ++place) {
+    const Vector3 d =
+        Difference(chunk_.positions[order[place]], positions[oracle_.VertexOf(place)]);
     largest2 = std::max(largest2, Dot(d, d));
   }
   return std::sqrt(largest2);

@@ -9,6 +9,8 @@ namespace {
 /// Between cells that a step of 2 would part, in spacings.
 constexpr double kStep = 0.1;
 constexpr float kLearning = 0.1F;
+/// Of the weight of all; a third of the groups of four cells has less.
+constexpr float kLeastPart = 1.0F / 4096;
 
 /// Squared distances in spacings to buckets: fine where vertices are near.
 LaneIntegers DistanceBuckets(Lanes squared, float last) {
@@ -115,6 +117,17 @@ void TangentDensity::Weigh(const std::array<std::array<float, 2>, kMostNeighbour
     }
     total = total + weight_[g];
   }
+  LeaveOutUnlikely(kLeastPart * SumOf(total));
+}
+
+void TangentDensity::LeaveOutUnlikely(float least) {
+  Lanes total = AllLanes(0);
+  likely_count_ = 0;
+  for (uint32_t g = 0; g < groups_; ++g) {
+    if (SumOf(weight_[g]) < least) continue;
+    likely_[likely_count_++] = static_cast<uint16_t>(g);
+    total = total + weight_[g];
+  }
   total_ = SumOf(total);
 }
 
@@ -133,7 +146,7 @@ void TangentDensity::First(uint32_t axis, AxisDensity* density) const {
   const double side = spacing_ * (static_cast<double>(half_along_) * std::fabs(along_axis_[axis]) +
                                   static_cast<double>(half_aside_) * std::fabs(aside_axis_[axis]));
   density->Start(middle - side, middle + side, WidthOn(axis));
-  for (uint32_t g = 0; g < groups_; ++g) density->Add(CentreOn(axis, g), weight_[g]);
+  for (const uint32_t g : Likely()) density->Add(CentreOn(axis, g), weight_[g]);
   density->Finish();
 }
 
@@ -146,7 +159,7 @@ void TangentDensity::Second(uint32_t axis, uint32_t first, double first_offset,
   const float offset = static_cast<float>(first_offset);
   possible_count_ = 0;
   float lo = 1e30F, hi = -1e30F;
-  for (uint32_t g = 0; g < groups_; ++g) {
+  for (const uint32_t g : Likely()) {
     const Lanes miss = offset - CentreOn(first, g);
     const Lanes share = 1 - Magnitude(miss) * per_width;
     const Lanes mass = weight_[g] * share;
@@ -186,7 +199,7 @@ void TangentDensity::Learn(double second_offset) {
   }
   if (!(found > 0)) return;
   const float expected = -kLearning / total_, seen = kLearning / found;
-  for (uint32_t g = 0; g < groups_; ++g) weight_[g] = weight_[g] * expected;
+  for (const uint32_t g : Likely()) weight_[g] = weight_[g] * expected;
   for (uint32_t i = 0; i < possible_count_; ++i) {
     const Possible& cell = possible_[i];
     weight_[cell.cell / kLanes][cell.cell % kLanes] += seen * cell.mass;
@@ -194,13 +207,14 @@ void TangentDensity::Learn(double second_offset) {
   auto& table = place_[context_];
   auto& far = far_[count_context_];
   PairTable& pair = pair_[count_context_];
-  for (uint32_t k = 0; k < cells_; ++k) {
-    const uint32_t group = k / kLanes, lane = k % kLanes;
-    const float surprise = weight_[group][lane];
-    table[place_of_[k]] += 2 * surprise;
-    far[static_cast<size_t>(far_bucket_[group][lane])] += surprise;
-    for (uint32_t n = 0; n < neighbours_; ++n) {
-      pair[ring_bucket_[n]][static_cast<size_t>(near_bucket_[group][n][lane])] += surprise;
+  for (const uint32_t g : Likely()) {
+    for (uint32_t lane = 0; lane < kLanes; ++lane) {
+      const float surprise = weight_[g][lane];
+      table[place_of_[g * kLanes + lane]] += 2 * surprise;
+      far[static_cast<size_t>(far_bucket_[g][lane])] += surprise;
+      for (uint32_t n = 0; n < neighbours_; ++n) {
+        pair[ring_bucket_[n]][static_cast<size_t>(near_bucket_[g][n][lane])] += surprise;
+      }
     }
   }
 }

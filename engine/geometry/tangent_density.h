@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/entropy/axis_density.h"
@@ -51,12 +52,15 @@ class TangentDensity {
     float mean, mass;
   };
   void Weigh(const std::array<std::array<float, 2>, kMostNeighbours>& neighbours);
+  /// Groups of less weight do not count.
+  void LeaveOutUnlikely(float least);
+  std::span<const uint16_t> Likely() const { return std::span(likely_).first(likely_count_); }
   Lanes CentreOn(uint32_t axis, uint32_t group) const;
   double WidthOn(uint32_t axis) const;
 
-  double reach_;            ///< how far a cell reaches along the surface, in spacings
-  uint32_t cells_ = 0;      ///< of the grid
-  uint32_t groups_ = 0;     ///< of four cells; the last is filled up with cells of no weight
+  double reach_;                   ///< how far a cell reaches along the surface, in spacings
+  uint32_t cells_ = 0;             ///< of the grid
+  uint32_t groups_ = 0;            ///< of four cells; the last is filled up with cells of no weight
   float half_along_, half_aside_;  ///< of the grid, in spacings
   // Offset of each cell from the expected place in spacings, and where its weight is.
   Lanes along_[kMostGroups], aside_[kMostGroups];
@@ -70,7 +74,9 @@ class TangentDensity {
   Vector3 normal_{0, 0, 1}, along_axis_{1, 0, 0}, aside_axis_{0, 1, 0};
   float eccentricity_ = 0;
   Lanes weight_[kMostGroups];
-  float total_ = 1;
+  std::array<uint16_t, kMostGroups> likely_;  ///< groups that count, the first so many
+  uint32_t likely_count_ = 0;
+  float total_ = 1;  ///< of their weights
   LaneIntegers far_bucket_[kMostGroups], near_bucket_[kMostGroups][kMostNeighbours];
   std::array<uint8_t, kMostNeighbours> ring_bucket_;
   uint32_t neighbours_ = 0, context_ = 0, count_context_ = 0;

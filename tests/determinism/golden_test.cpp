@@ -21,20 +21,20 @@ namespace {
 
 /// XXH3 of the files below, in every build and on every machine. A change of the bytes is a change
 /// of the format: renew these together with FORMAT.md.
-constexpr uint64_t kDefaultHash = 0x3eed4fa439246c57;
+constexpr uint64_t kDefaultHash = 0xa7cbad5e4248d2cd;
 constexpr uint64_t kPaperHash = 0x4007143afbaf70a6;
-constexpr uint64_t kSubtreesHash = 0x8cc878b4744f34cd;
-constexpr uint64_t kRangeHash = 0x7891c10620492957;
+constexpr uint64_t kSubtreesHash = 0xca25564209b5b16b;
+constexpr uint64_t kRangeHash = 0x8d00ad241020073e;
 constexpr uint64_t kLeastEffortHash = 0x4a5cd71a2bcced09;
-constexpr uint64_t kMostEffortHash = 0xcaada39f9264a09f;
-constexpr uint64_t kVoxelHash = 0x18aa4c1770a47a66;
-constexpr uint64_t kExactVoxelHash = 0x175fad48e2ed1ff9;
-constexpr uint64_t kSubdividedHash = 0xfafce03f88c22dbf;
-constexpr uint64_t kExactHash = 0xd5b0782c4e59a01d;
-constexpr uint64_t kExactRestsHash = 0xe35230c5af40cda7;
+constexpr uint64_t kMostEffortHash = 0x3385b59eb52622df;
+constexpr uint64_t kVoxelHash = 0xa1e87e0c938eb07f;
+constexpr uint64_t kExactVoxelHash = 0x5bb89a280ad8dcd9;
+constexpr uint64_t kSubdividedHash = 0x8721c905a4f9f0b9;
+constexpr uint64_t kExactHash = 0x8be4490e1f69afbc;
+constexpr uint64_t kExactRestsHash = 0xefed8baf9941e150;
 constexpr uint64_t kOtherHash = 0x635e8f099bed4acb;
-constexpr uint64_t kSoupHash = 0x70ede8c70078821b;
-constexpr uint64_t kAttributesHash = 0x64dc3976b23158c0;
+constexpr uint64_t kSoupHash = 0xa9efba3f85e0ab05;
+constexpr uint64_t kAttributesHash = 0xb3b6bddf16c0fd6c;
 
 void ExpectHashOf(const std::string& scan, const char* constant, uint64_t expected,
                   const EncodeOptions& options) {

@@ -93,27 +93,40 @@ void TangentDensity::Prepare(const RingShape& ring, const Vector3& ahead) {
   Weigh(place);
 }
 
+TangentDensity::PairRows TangentDensity::RowsOfNeighbours() {
+  PairRows rows;
+  for (uint32_t n = 0; n < neighbours_; ++n) {
+    rows[n] = pair_[count_context_][ring_bucket_[n]].data();
+  }
+  return rows;
+}
+
 void TangentDensity::Weigh(const std::array<std::array<float, 2>, kMostNeighbours>& neighbours) {
   const auto& table = place_[context_];
   const auto& far = far_[count_context_];
-  const PairTable& pair = pair_[count_context_];
-  Lanes total = AllLanes(0);
   for (uint32_t g = 0; g < groups_; ++g) {
     const Lanes u = eccentricity_ + along_[g], v = aside_[g];
     const uint32_t k = g * kLanes;
     far_bucket_[g] = DistanceBuckets(u * u + v * v, kFarBuckets - 1);
-    Lanes score = LookUp(far.data(), far_bucket_[g]) +
-                  Lanes{table[place_of_[k]], table[place_of_[k + 1]], table[place_of_[k + 2]],
-                        table[place_of_[k + 3]]};
-    for (uint32_t n = 0; n < neighbours_; ++n) {
-      const Lanes du = u - neighbours[n][0], dv = v - neighbours[n][1];
-      const LaneIntegers bucket = DistanceBuckets(du * du + dv * dv, kNearBuckets - 1);
-      near_bucket_[g][n] = bucket;
-      score = score + LookUp(pair[ring_bucket_[n]].data(), bucket);
+    weight_[g] = LookUp(far.data(), far_bucket_[g]) +
+                 Lanes{table[place_of_[k]], table[place_of_[k + 1]], table[place_of_[k + 2]],
+                       table[place_of_[k + 3]]};
+  }
+  const PairRows pair = RowsOfNeighbours();
+  for (uint32_t n = 0; n < neighbours_; ++n) {
+    LaneIntegers* const bucket = near_bucket_[n];
+    const Lanes to_u = AllLanes(neighbours[n][0]), to_v = AllLanes(neighbours[n][1]);
+    for (uint32_t g = 0; g < groups_; ++g) {
+      const Lanes du = eccentricity_ + along_[g] - to_u, dv = aside_[g] - to_v;
+      bucket[g] = DistanceBuckets(du * du + dv * dv, kNearBuckets - 1);
     }
-    weight_[g] = FastExp2(LesserOf(GreaterOf(score, AllLanes(-30)), AllLanes(30)));
+    for (uint32_t g = 0; g < groups_; ++g) weight_[g] = weight_[g] + LookUp(pair[n], bucket[g]);
+  }
+  Lanes total = AllLanes(0);
+  for (uint32_t g = 0; g < groups_; ++g) {
+    weight_[g] = FastExp2(LesserOf(GreaterOf(weight_[g], AllLanes(-30)), AllLanes(30)));
     if (g + 1 == groups_) {
-      for (uint32_t lane = cells_ - k; lane < kLanes; ++lane) weight_[g][lane] = 0;
+      for (uint32_t lane = cells_ - g * kLanes; lane < kLanes; ++lane) weight_[g][lane] = 0;
     }
     total = total + weight_[g];
   }
@@ -206,14 +219,14 @@ void TangentDensity::Learn(double second_offset) {
   }
   auto& table = place_[context_];
   auto& far = far_[count_context_];
-  PairTable& pair = pair_[count_context_];
+  const PairRows pair = RowsOfNeighbours();
   for (const uint32_t g : Likely()) {
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
       const float surprise = weight_[g][lane];
       table[place_of_[g * kLanes + lane]] += 2 * surprise;
       far[static_cast<size_t>(far_bucket_[g][lane])] += surprise;
       for (uint32_t n = 0; n < neighbours_; ++n) {
-        pair[ring_bucket_[n]][static_cast<size_t>(near_bucket_[g][n][lane])] += surprise;
+        pair[n][near_bucket_[n][g][lane]] += surprise;
       }
     }
   }

@@ -51,6 +51,9 @@ class TangentDensity {
     uint32_t cell;
     float mean, mass;
   };
+  /// Of the pair table, by neighbour.
+  using PairRows = std::array<float*, kMostNeighbours>;
+  PairRows RowsOfNeighbours();
   void Weigh(const std::array<std::array<float, 2>, kMostNeighbours>& neighbours);
   /// Groups of less weight do not count.
   void LeaveOutUnlikely(float least);
@@ -77,7 +80,7 @@ class TangentDensity {
   std::array<uint16_t, kMostGroups> likely_;  ///< groups that count, the first so many
   uint32_t likely_count_ = 0;
   float total_ = 1;  ///< of their weights
-  LaneIntegers far_bucket_[kMostGroups], near_bucket_[kMostGroups][kMostNeighbours];
+  LaneIntegers far_bucket_[kMostGroups], near_bucket_[kMostNeighbours][kMostGroups];
   std::array<uint8_t, kMostNeighbours> ring_bucket_;
   uint32_t neighbours_ = 0, context_ = 0, count_context_ = 0;
   double second_width_ = 1;
